@@ -1,0 +1,39 @@
+#ifndef ROLLWAVE_ASSEMBLY_H
+#define ROLLWAVE_ASSEMBLY_H
+
+#include "ring_space.h"
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <functional>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/// Takes the stiffness matrix of one cell and the numbers of its degrees of freedom.
+using AddCellMatrix = std::function<void(const std::vector<dealii::types::global_dof_index>& dofs,
+                                         const dealii::FullMatrix<double>& cell_matrix)>;
+
+/**
+ * Calls @p add for every cell with
+ *
+ *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,   alpha = 1/r^2 -
+ * omega^2
+ *
+ * by Gauss' rule with degree + 1 points in each direction. Constraints are not applied.
+ */
+void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add);
+
+/**
+ * The load vector f_i = int r f phi_i dr dz with the constraints applied, by the same rule; the
+ * scene must have a force.
+ *
+ * @throws BadInput where f is not finite.
+ */
+FieldVector assemble_load(const RingSpace& space, const Scene& scene);
+
+} // namespace rollwave
+
+#endif

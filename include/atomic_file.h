@@ -1,0 +1,38 @@
+#ifndef ROLLWAVE_ATOMIC_FILE_H
+#define ROLLWAVE_ATOMIC_FILE_H
+
+#include <filesystem>
+#include <fstream>
+
+namespace rollwave {
+
+/**
+ * A file that is either complete or absent: it is written beside its place as "NAME.part" and moved
+ * there by commit(). Without commit() nothing remains.
+ */
+class AtomicFile {
+public:
+  /// @throws NotWritten when the file cannot be opened.
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::ostream& stream() { return out; }
+
+  /// Moves the file to its place and returns its size in bytes.
+  /// @throws NotWritten when anything could not be written.
+  unsigned long commit();
+
+private:
+  std::filesystem::path path;
+  std::filesystem::path part;
+  std::ofstream out;
+};
+
+/// Writes @p content and returns its size in bytes. @throws NotWritten.
+unsigned long write_file(const std::filesystem::path& path, const std::string& content);
+
+} // namespace rollwave
+
+#endif

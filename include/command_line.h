@@ -1,0 +1,27 @@
+#ifndef ROLLWAVE_COMMAND_LINE_H
+#define ROLLWAVE_COMMAND_LINE_H
+
+#include "settings.h"
+
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// What the user asked for.
+struct CommandLine {
+  enum class Action { run, help, version, parameters };
+  Action action = Action::run;
+  std::filesystem::path file;    ///< the parameter file to run
+  std::vector<Setting> settings; ///< of --set and --output, in their order
+};
+
+/// @throws BadInput for arguments that are not understood.
+CommandLine read_command_line(const std::vector<std::string>& arguments);
+
+/// How to call the program.
+std::string usage();
+
+} // namespace rollwave
+
+#endif

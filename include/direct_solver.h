@@ -1,0 +1,63 @@
+#ifndef ROLLWAVE_DIRECT_SOLVER_H
+#define ROLLWAVE_DIRECT_SOLVER_H
+
+#include "sparse_cholesky.h"
+#include "stiffness_solver.h"
+#include "work.h"
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <optional>
+
+namespace rollwave {
+
+struct Scene;
+
+/**
+ * The direct kind: one sparse Cholesky factorisation of K with the contact nodes last. The problem
+ * on the contact nodes is then dense and small,
+ *
+ *     S u_c = g - N_c,   S = L_cc L_cc^T,   g = f_c - K_ci K_ii^-1 f_i = L_cc (L^-1 f)_c,
+ *
+ * so that pinning any of them never touches the large matrix again, and one back-substitution
+ * L_ii^T u_i = (L^-1 f)_i - L_ci^T u_c gives the field.
+ */
+class DirectSolver : public StiffnessSolver {
+public:
+  /// Assembles and factorises K. @p load is the vector of assemble_load(), nullopt when it is zero.
+  /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
+  DirectSolver(const RingSpace& space, const Scene& scene, const std::optional<FieldVector>& load,
+               Work& work);
+
+  void solve(const std::vector<bool>& pinned, ContactState& state) override;
+  FieldVector displacement_field(const ContactState& state) override;
+  FieldVector apply(const FieldVector& field) const override;
+
+private:
+  std::vector<double> gather(const FieldVector& field) const;
+  FieldVector scatter(const std::vector<double>& unknowns) const;
+
+  const RingSpace& space;
+  Work& work;
+
+  /// The number of each degree of freedom among the unknowns, contact nodes last; -1 if
+  /// constrained.
+  std::vector<int> unknown_of_dof;
+  std::unique_ptr<SparseCholesky> cholesky;
+  std::vector<double> reduced_load;    ///< L^-1 P f; empty for f = 0
+  dealii::FullMatrix<double> schur;    ///< S
+  dealii::FullMatrix<double> trailing; ///< L_cc
+  dealii::Vector<double> contact_load; ///< g
+
+  /// The factorisation of S on the nodes that are not pinned, kept while these are the same.
+  struct FreeBlock {
+    std::vector<bool> pinned;
+    std::vector<unsigned int> nodes;
+    dealii::LAPACKFullMatrix<double> factor;
+  };
+  std::optional<FreeBlock> free_block;
+};
+
+} // namespace rollwave
+
+#endif

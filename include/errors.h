@@ -1,0 +1,26 @@
+#ifndef ROLLWAVE_ERRORS_H
+#define ROLLWAVE_ERRORS_H
+
+#include <stdexcept>
+
+namespace rollwave {
+
+/// The user's input is wrong; the program ends with exit code 1.
+struct BadInput : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The scene could not be solved to what was wanted; exit code 2. The text says what was reached,
+/// what was wanted and which parameter to change.
+struct NotSolved : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A result could not be written; exit code 3. No file is left half-written.
+struct NotWritten : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef ROLLWAVE_REPORT_H
+#define ROLLWAVE_REPORT_H
+
+#include "output.h"
+#include "result.h"
+#include "scene.h"
+
+#include <iosfwd>
+
+namespace rollwave {
+
+/// Says what will be solved.
+void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters);
+
+/// Tells what a run has found: mesh, a line for each contact step, results and residuals.
+void report_result(std::ostream& out, const Result& result);
+
+/// Tells where the time went and which files were written.
+void report_end(std::ostream& out, const Work& work, const WrittenFiles& written);
+
+/// Lists the written files.
+void report_files(std::ostream& out, const WrittenFiles& written);
+
+} // namespace rollwave
+
+#endif

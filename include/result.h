@@ -1,0 +1,65 @@
+#ifndef ROLLWAVE_RESULT_H
+#define ROLLWAVE_RESULT_H
+
+#include "contact_patch.h"
+#include "parameters.h"
+#include "work.h"
+
+#include <vector>
+
+namespace rollwave {
+
+struct MeshFigures {
+  unsigned int degree;
+  unsigned int cells;
+  unsigned int dofs; ///< unknowns: hub, seam and hanging nodes are not counted
+  unsigned int contact_nodes;
+  double h_min; ///< smallest cell diameter in (r, z)
+  double h_max; ///< largest cell diameter in (r, z)
+};
+
+struct Energy {
+  double value;        ///< J(u_h)
+  double norm_squared; ///< a(u_h, u_h)
+};
+
+/// How well the optimality conditions hold, each relative to its own data; all zero is perfect.
+struct Residuals {
+  double equilibrium;       ///< |f - K u - N|_2 / max(|f|_2, |N|_2)
+  double penetration;       ///< max (u_i - phi_i)^+ / max |u_i| on contact nodes
+  double negative_pressure; ///< max (-lambda_i)^+ / max |lambda_i|
+  double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
+};
+
+/// The numbers of one contact node; gap = phi - u.
+struct ContactRow {
+  double angle;
+  double displacement;
+  double road;
+  double gap;
+  double pressure;
+};
+
+/// A point of the deformed surface r = b.
+struct SurfacePoint {
+  double angle;
+  double displacement;
+};
+
+/// All numbers of one solved scene.
+struct Result {
+  MeshFigures mesh;
+  ContactPatch patch;
+  Energy energy;
+  Residuals residuals;
+  std::vector<ContactStep> history;
+  double rho; ///< Uzawa's step length; 0 for the active set method
+  std::string remark;
+  std::vector<ContactRow> contact_rows;
+  std::vector<SurfacePoint> surface;
+  Work work;
+};
+
+} // namespace rollwave
+
+#endif

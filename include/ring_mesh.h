@@ -1,0 +1,35 @@
+#ifndef ROLLWAVE_RING_MESH_H
+#define ROLLWAVE_RING_MESH_H
+
+#include <memory>
+
+namespace dealii {
+template <int dim, int spacedim>
+class Triangulation;
+}
+
+namespace rollwave {
+
+struct Parameters;
+struct Scene;
+
+/// Boundary ids of the rectangle (r, z) in [a, b] x [pi/2, 5 pi/2].
+enum BoundaryId : unsigned int {
+  hub_id = 0,        ///< r = a, where u = 0
+  surface_id = 1,    ///< r = b, which meets the road
+  seam_begin_id = 2, ///< z = pi/2, opposite to the road
+  seam_end_id = 3    ///< z = 5 pi/2, the same points as z = pi/2
+};
+
+/**
+ * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), refined
+ * `Mesh/Global refinements` times, periodic over the seam.
+ *
+ * @throws BadInput when it would have more than `Mesh/Most unknowns` unknowns.
+ */
+std::unique_ptr<dealii::Triangulation<2, 2>> make_ring_mesh(const Scene& scene,
+                                                            const Parameters& parameters);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef ROLLWAVE_RING_SPACE_H
+#define ROLLWAVE_RING_SPACE_H
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/// A field on the ring: one value for each degree of freedom.
+using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+/// A node on r = b. Over the seam only one of two coinciding nodes is listed.
+struct SurfaceNode {
+  dealii::types::global_dof_index dof;
+  double angle; ///< z in [m - pi, m + pi), where m is the middle of the contact zone
+
+  /// b times the node's Gauss-Lobatto weight, an area: [p, q]_h = sum_i weight_i p_i q_i is the
+  /// integral of r p q over r = b by Gauss-Lobatto's rule with degree + 1 points, that is the
+  /// trapezoidal rule for degree 1 and Simpson's for degree 2. Nodal force = weight * pressure.
+  double weight;
+};
+
+/**
+ * Continuous elements of one degree in (r, z): degrees of freedom, constraints (hanging nodes,
+ * period, u = 0 on the hub) and the nodes on the surface.
+ */
+class RingSpace {
+public:
+  /// @throws BadInput when no node of the mesh lies in the contact zone.
+  RingSpace(const dealii::Triangulation<2>& triangulation, const Scene& scene, unsigned int degree);
+
+  const dealii::DoFHandler<2>& dof_handler() const { return handler; }
+  const dealii::AffineConstraints<double>& constraints() const { return affine_constraints; }
+
+  /// Cells are rectangles in (r, z).
+  const dealii::MappingCartesian<2>& mapping() const { return cartesian; }
+
+  /// Unknowns: degrees of freedom without those that constraints tie to others.
+  unsigned int n_unknowns() const;
+
+  /// All nodes on r = b by increasing angle.
+  const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
+
+  /// The nodes in [z0, z1], a stretch of surface_nodes().
+  const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
+
+  /// A zero field.
+  FieldVector make_field() const { return FieldVector(handler.n_dofs()); }
+
+private:
+  void find_surface_nodes(const Scene& scene);
+
+  dealii::FE_Q<2> element;
+  dealii::MappingCartesian<2> cartesian;
+  dealii::DoFHandler<2> handler;
+  dealii::AffineConstraints<double> affine_constraints;
+  std::vector<SurfaceNode> surface;
+  std::vector<SurfaceNode> contact;
+};
+
+} // namespace rollwave
+
+#endif

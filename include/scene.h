@@ -1,0 +1,61 @@
+#ifndef ROLLWAVE_SCENE_H
+#define ROLLWAVE_SCENE_H
+
+#include <functional>
+
+namespace rollwave {
+
+struct Parameters;
+
+/**
+ * An elastic ring rolling steadily over a road, after D. Ross and M. Bercovier, "Traveling waves in
+ * a cylinder rolling on a flat surface", M2AN 25 (1991) 129-149.
+ *
+ * The unknown is the radial displacement u(r, z) on Omega = (a, b) x [0, 2 pi), periodic in the
+ * angle z, which rests with the axle. With alpha(r) = 1/r^2 - omega^2 it obeys
+ *
+ *     -alpha u_zz - (1/r) (r u_r)_r = f            in Omega
+ *     u = 0                                        on r = a
+ *     u_r = 0                                      on r = b off the contact zone
+ *     u <= phi,  u_r <= 0,  (u - phi) u_r = 0      on r = b in the contact zone [z0, z1]
+ *
+ * and is the minimiser of J(v) = a(v, v)/2 - (f, v) over the v <= phi on the contact zone with
+ * v = 0 on r = a, where, r dr dz being the area element in polar coordinates,
+ *
+ *     a(u, v) = int r (alpha u_z v_z + u_r v_r) dr dz,    (f, v) = int r f v dr dz.
+ *
+ * The contact pressure is lambda = -u_r(b, z) >= 0. The bilinear form is elliptic for omega < 1/b;
+ * at omega = 1/b alpha vanishes on r = b and the problem is degenerate there.
+ */
+struct Scene {
+  double inner_radius;     ///< a, a length
+  double outer_radius;     ///< b, a length
+  double angular_velocity; ///< omega, one over a length (the wave speed is 1)
+
+  /// f(r, z), a force density, z in [0, 2 pi); empty when there is none.
+  std::function<double(double r, double z)> force;
+
+  /// phi(z): the displacement at which the surface touches the road, a length.
+  std::function<double(double z)> road;
+
+  double zone_begin; ///< z0, an angle; the zone may begin at any angle
+  double zone_end;   ///< z1 in (z0, z0 + 2 pi)
+
+  /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
+  double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
+};
+
+/// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle.
+std::function<double(double)> flat_road(double outer_radius, double distance);
+
+/**
+ * The scene that @p parameters describe.
+ *
+ * @throws BadInput unless 0 < a < b, 0 <= omega <= 1/b, a < c < 2 b,
+ *         pi < z0 < z1 < 2 pi and the force can be parsed and is finite.
+ */
+Scene make_scene(const Parameters& parameters);
+
+} // namespace rollwave
+
+#endif

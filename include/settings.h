@@ -1,0 +1,41 @@
+#ifndef ROLLWAVE_SETTINGS_H
+#define ROLLWAVE_SETTINGS_H
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// One assignment of a value to a key, as the user wrote it, and where: "FILE, line N" or "--set".
+struct Setting {
+  std::string section;
+  std::string key;
+  std::string value;
+  std::string origin;
+
+  std::string path() const { return section + "/" + key; }
+};
+
+/**
+ * The assignments of a parameter file, in its order. The grammar is that of deal.II's
+ * ParameterHandler (`subsection`, `set KEY = VALUE`, `end`, `#` for comments, `\` at the end of a
+ * line to continue it); reading it here keeps the line of every entry for later messages.
+ *
+ * @throws BadInput when the file cannot be read, has a line of another form, unbalanced
+ *         subsections, or sets a key twice.
+ */
+std::vector<Setting> read_settings(const std::filesystem::path& file);
+
+/// The assignment in "Section/Key=value". @throws BadInput when @p text has another form.
+Setting parse_setting(const std::string& text, const std::string& origin);
+
+/// @p text without white space at both ends.
+std::string trimmed(const std::string& text);
+
+/// The parts of @p text between the separators, trimmed; none for an empty text.
+std::vector<std::string> split(const std::string& text, char separator);
+
+} // namespace rollwave
+
+#endif

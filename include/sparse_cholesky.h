@@ -1,0 +1,70 @@
+#ifndef ROLLWAVE_SPARSE_CHOLESKY_H
+#define ROLLWAVE_SPARSE_CHOLESKY_H
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace rollwave {
+
+/// Entries of the lower triangle of a symmetric matrix in any order; equal places are summed.
+struct LowerTriplets {
+  std::vector<int> rows;
+  std::vector<int> columns;
+  std::vector<double> values;
+
+  void add(int row, int column, double value) {
+    rows.push_back(row);
+    columns.push_back(column);
+    values.push_back(value);
+  }
+};
+
+/**
+ * The factorisation P K P^T = L L^T of a sparse symmetric positive definite matrix K of n rows,
+ * whose last m unknowns stay last and in their order:
+ *
+ *         ( L_ii       )                        T
+ *     L = (            ),     S = L_cc   L_cc
+ *         ( L_ci  L_cc )
+ *
+ * where the m x m matrix S is the Schur complement of the leading unknowns. By CHOLMOD's supernodal
+ * method with constrained approximate minimum degree ordering (Y. Chen, T. A. Davis, W. W. Hager
+ * and S. Rajamanickam, ACM Trans. Math. Softw. 35 (2008) 22).
+ */
+class SparseCholesky {
+public:
+  /// Sums up the triplets and orders and analyses the matrix.
+  /// @throws NotSolved when memory is short.
+  SparseCholesky(int n, int m, const LowerTriplets& triplets);
+  ~SparseCholesky();
+
+  /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
+  void factorise();
+
+  /// K x
+  std::vector<double> multiply(const std::vector<double>& x) const;
+
+  /// y = L^-1 P b, of size n; its last m entries belong to the trailing unknowns.
+  std::vector<double> forward(const std::vector<double>& b);
+
+  /// P^T L^-T y
+  std::vector<double> backward(const std::vector<double>& y);
+
+  /// L_cc, m x m, with zeros above the diagonal.
+  dealii::FullMatrix<double> trailing_factor() const;
+
+  /// Entries of L, zeros within supernodes included.
+  double n_factor_entries() const;
+
+private:
+  struct Cholmod;
+  std::unique_ptr<Cholmod> cholmod;
+  int n;
+  int m;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,46 @@
+#ifndef ROLLWAVE_STIFFNESS_SOLVER_H
+#define ROLLWAVE_STIFFNESS_SOLVER_H
+
+#include "ring_space.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <vector>
+
+namespace rollwave {
+
+/// The state of the contact nodes, in the order of RingSpace::contact_nodes().
+struct ContactState {
+  dealii::Vector<double> displacement; ///< u_i, a length
+
+  /// N_i = f_i - (K u)_i, a force: positive where the road presses. Over the node's weight it is
+  /// the contact pressure.
+  dealii::Vector<double> force;
+};
+
+/**
+ * The linear problem on one mesh, as contact iterations see it:
+ *
+ *     K u = f - N,   N = 0 but on contact nodes, where either u_i (pinned) or N_i is given.
+ *
+ * The contact nodes are few, and known to every process in full; whatever else the solution needs
+ * belongs to the kind of solver.
+ */
+class StiffnessSolver {
+public:
+  virtual ~StiffnessSolver() = default;
+
+  /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
+  /// and u_i on the others. All arrays have one entry for each contact node.
+  virtual void solve(const std::vector<bool>& pinned, ContactState& state) = 0;
+
+  /// The field u of a state that solve() has left, constraints included.
+  virtual FieldVector displacement_field(const ContactState& state) = 0;
+
+  /// K u for a field that obeys the constraints; zero where a constraint holds.
+  virtual FieldVector apply(const FieldVector& field) const = 0;
+};
+
+} // namespace rollwave
+
+#endif

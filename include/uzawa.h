@@ -1,0 +1,43 @@
+#ifndef ROLLWAVE_UZAWA_H
+#define ROLLWAVE_UZAWA_H
+
+#include "contact_solver.h"
+
+#include <optional>
+
+namespace rollwave {
+
+struct UzawaSettings {
+  std::optional<double> rho; ///< step length, pressure over displacement; nullopt: automatic
+  UzawaStop stop;
+  double tolerance;
+  unsigned int most_steps;
+};
+
+/**
+ * The method of Ross and Bercovier: with p = -lambda <= 0, from p = 0,
+ *
+ *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
+ *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
+ *
+ * It converges for 0 < rho < 2 / mu, where mu is the largest eigenvalue of the compliance that maps
+ * -p to -u on the nodes that end up in contact. A step length that is too large shows in a residual
+ * that stops falling.
+ *
+ * @throws NotSolved when it diverges, with the largest rho that can converge, or after
+ *         settings.most_steps steps.
+ */
+ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
+                      const UzawaSettings& settings);
+
+/**
+ * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes
+ * selected by @p nodes: C M x = mu x, C = S^-1 restricted to them, M the diagonal of their weights.
+ * By power iteration, which approaches it from below, to a relative accuracy of about 1e-6.
+ */
+double largest_compliance(StiffnessSolver& solver, const ContactProblem& problem,
+                          const std::vector<bool>& nodes);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,49 @@
+#ifndef ROLLWAVE_WORK_H
+#define ROLLWAVE_WORK_H
+
+#include <deal.II/base/timer.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rollwave {
+
+/// What a run has done and how long each phase took, so that it can be seen what a scene costs.
+class Work {
+public:
+  unsigned int load_assemblies = 0;
+  unsigned int stiffness_assemblies = 0;
+  unsigned int factorisations = 0;       ///< of the sparse stiffness matrix
+  unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
+  unsigned int forward_substitutions = 0;
+  unsigned int back_substitutions = 0;
+  unsigned long bytes_written = 0;
+
+  /// Adds the time until it is destroyed to a phase.
+  class Phase {
+  public:
+    Phase(Work& work, const std::string& name) : work(work), name(name) {}
+    ~Phase() { work.add_seconds(name, timer.wall_time()); }
+    Phase(const Phase&) = delete;
+    Phase& operator=(const Phase&) = delete;
+
+  private:
+    Work& work;
+    const std::string name;
+    dealii::Timer timer;
+  };
+
+  void add_seconds(const std::string& phase, double seconds);
+
+  /// Wall seconds by phase, in the order in which the phases were first entered.
+  const std::vector<std::pair<std::string, double>>& seconds() const { return phases; }
+  double total_seconds() const;
+
+private:
+  std::vector<std::pair<std::string, double>> phases;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,55 @@
+#include "command_line.h"
+
+#include "errors.h"
+
+namespace rollwave {
+
+std::string usage() {
+  return R"(Rollwave computes the steady rolling of an elastic cylinder on a flat road.
+
+Usage:
+  rollwave FILE.prm [--output DIR] [--set "Section/Key=value"]...
+  rollwave --parameters   print a complete commented parameter file
+  rollwave --help         print this text
+  rollwave --version      print the versions of Rollwave and deal.II
+
+Options:
+  --output DIR                the directory for the files, instead of the file's
+  --set "Section/Key=value"   overrides the file; may be repeated
+
+Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
+)";
+}
+
+CommandLine read_command_line(const std::vector<std::string>& arguments) {
+  CommandLine line;
+  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    const auto option_value = [&]() {
+      const std::string option = *argument;
+      if (++argument == arguments.end())
+        throw BadInput(option + " needs a value after it; see rollwave --help");
+      return *argument;
+    };
+    if (*argument == "--help" || *argument == "-h")
+      line.action = CommandLine::Action::help;
+    else if (*argument == "--version")
+      line.action = CommandLine::Action::version;
+    else if (*argument == "--parameters")
+      line.action = CommandLine::Action::parameters;
+    else if (*argument == "--output")
+      line.settings.push_back({"Output", "Directory", option_value(), "--output"});
+    else if (*argument == "--set")
+      line.settings.push_back(parse_setting(option_value(), "--set"));
+    else if (argument->size() > 1 && argument->front() == '-')
+      throw BadInput("unknown option " + *argument + "; see rollwave --help");
+    else if (!line.file.empty())
+      throw BadInput("one parameter file at a time: " + line.file.string() + " or " + *argument);
+    else
+      line.file = *argument;
+  }
+  if (line.action == CommandLine::Action::run && line.file.empty())
+    throw BadInput("no parameter file given\n\n" + usage());
+  return line;
+}
+
+} // namespace rollwave

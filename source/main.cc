@@ -1,0 +1,85 @@
+#include "command_line.h"
+#include "errors.h"
+#include "output.h"
+#include "parameters.h"
+#include "report.h"
+#include "simulation.h"
+#include "study.h"
+#include "version.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <csignal>
+#include <iostream>
+#include <new>
+
+namespace {
+
+using namespace rollwave;
+
+void run(const CommandLine& line) {
+  std::vector<Setting> settings = read_settings(line.file);
+  settings.insert(settings.end(), line.settings.begin(), line.settings.end());
+  const Parameters parameters = read_parameters(settings);
+  const Scene scene = make_scene(parameters);
+  const auto directory = prepare_directory(parameters);
+
+  report_scene(std::cout, scene, parameters);
+  if (!parameters.study.vary.empty()) {
+    const auto runs = run_study(parameters, std::cout);
+    std::cout << '\n' << study_table(runs);
+    report_files(std::cout, write_study(directory, parameters, runs));
+    return;
+  }
+  Solution solution = simulate(scene, parameters);
+  report_result(std::cout, solution.result);
+  const WrittenFiles written = write_results(directory, scene, parameters, solution);
+  report_end(std::cout, solution.result.work, written);
+}
+
+int act(const std::vector<std::string>& arguments) {
+  const CommandLine line = read_command_line(arguments);
+  switch (line.action) {
+  case CommandLine::Action::help:
+    std::cout << usage();
+    break;
+  case CommandLine::Action::version:
+    std::cout << version_text() << '\n';
+    break;
+  case CommandLine::Action::parameters:
+    print_parameters(std::cout, line.settings);
+    break;
+  case CommandLine::Action::run:
+    run(line);
+  }
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char* argv[]) {
+  // A file that grows beyond the limit shall be an error of the stream, not the end of the process.
+  std::signal(SIGXFSZ, SIG_IGN);
+
+  const auto fail = [](const std::string& kind, const std::string& message, int code) {
+    std::cout << std::flush;
+    std::cerr << "rollwave: " << kind << message << std::endl;
+    return code;
+  };
+  try {
+    return act({argv + 1, argv + argc});
+  } catch (const rollwave::BadInput& error) {
+    return fail("", error.what(), 1);
+  } catch (const rollwave::NotSolved& error) {
+    return fail("not solved: ", error.what(), 2);
+  } catch (const rollwave::NotWritten& error) {
+    return fail("not written: ", error.what(), 3);
+  } catch (const std::bad_alloc&) {
+    return fail("not solved: ",
+                "not enough memory; lower Mesh/Radial cells, Mesh/Angular cells or "
+                "Mesh/Global refinements",
+                2);
+  } catch (const std::exception& error) {
+    return fail("not solved: ", error.what(), 2);
+  }
+}

@@ -1,0 +1,81 @@
+#include "output.h"
+
+#include "atomic_file.h"
+#include "errors.h"
+#include "scene_plot.h"
+#include "solution_vtu.h"
+#include "summary.h"
+#include "version.h"
+
+#include <limits>
+#include <ostream>
+#include <sstream>
+#include <unistd.h>
+
+namespace rollwave {
+
+namespace {
+
+std::string contact_csv(const Result& result) {
+  std::ostringstream out;
+  out.precision(std::numeric_limits<double>::max_digits10);
+  out << "z,u,phi,gap,pressure\n";
+  for (const ContactRow& row : result.contact_rows)
+    out << row.angle << ',' << row.displacement << ',' << row.road << ',' << row.gap << ','
+        << row.pressure << '\n';
+  return out.str();
+}
+
+} // namespace
+
+std::filesystem::path prepare_directory(const Parameters& parameters) {
+  const std::filesystem::path directory = parameters.output.directory;
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error || access(directory.c_str(), W_OK | X_OK) != 0)
+    throw BadInput(refusal(parameters.settings, "Output", "Directory",
+                           "this directory cannot be made or written into"));
+  return directory;
+}
+
+void write_parameters(std::ostream& out, const Parameters& parameters) {
+  out << "# All parameters of a run of " << version_text() << ".\n\n";
+  print_parameters(out, parameters.settings);
+}
+
+WrittenFiles write_results(const std::filesystem::path& directory, const Scene& scene,
+                           const Parameters& parameters, Solution& solution) {
+  WrittenFiles written;
+  Work& work = solution.result.work;
+  const auto add = [&](const std::string& name, const std::string& content) {
+    work.bytes_written += write_file(directory / name, content);
+    written.files.push_back(directory / name);
+  };
+  {
+    const Work::Phase phase(work, "output");
+    if (parameters.wants(OutputFile::contact))
+      add("contact.csv", contact_csv(solution.result));
+    if (parameters.wants(OutputFile::parameters)) {
+      std::ostringstream text;
+      write_parameters(text, parameters);
+      add("parameters.prm", text.str());
+    }
+    if (parameters.wants(OutputFile::solution)) {
+      AtomicFile file(directory / "solution.vtu");
+      write_solution_vtu(file.stream(), solution);
+      work.bytes_written += file.commit();
+      written.files.push_back(directory / "solution.vtu");
+    }
+    if (parameters.wants(OutputFile::plot)) {
+      if (const auto svg = plot_scene(scene, parameters, solution.result))
+        add("scene.svg", *svg);
+      else
+        written.remarks.push_back("scene.svg was not drawn: is gnuplot installed?");
+    }
+  }
+  if (parameters.wants(OutputFile::summary))
+    add("summary.json", summary_json(scene, parameters, solution.result));
+  return written;
+}
+
+} // namespace rollwave

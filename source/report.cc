@@ -1,0 +1,107 @@
+#include "report.h"
+
+#include "version.h"
+
+#include <deal.II/base/table_handler.h>
+
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// A long history is told by its ends.
+constexpr unsigned int most_lines = 40;
+
+void report_history(std::ostream& out, const std::vector<ContactStep>& history) {
+  TableHandler table;
+  for (unsigned int step = 0; step < history.size(); ++step) {
+    if (history.size() > most_lines && step >= most_lines / 2 &&
+        step < history.size() - most_lines / 2)
+      continue;
+    table.add_value("step", step + 1);
+    table.add_value("active", history[step].active);
+    table.add_value("changed", history[step].changed);
+    table.add_value("penetration", history[step].penetration);
+    table.add_value("lowest pressure", history[step].lowest_pressure);
+    table.add_value("residual", history[step].residual);
+  }
+  for (const char* const column : {"penetration", "lowest pressure", "residual"}) {
+    table.set_precision(column, 3);
+    table.set_scientific(column, true);
+  }
+  table.write_text(out, TableHandler::table_with_headers);
+}
+
+} // namespace
+
+void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
+  out << version_text() << '\n'
+      << "Cylinder   a = " << scene.inner_radius << ", b = " << scene.outer_radius
+      << ", omega = " << scene.angular_velocity
+      << " (omega b = " << scene.angular_velocity * scene.outer_radius
+      << "), f = " << parameters.cylinder.radial_force << '\n'
+      << "Road       distance " << parameters.road.distance << ", zone of possible contact ["
+      << scene.zone_begin << ", " << scene.zone_end << "]\n"
+      << std::flush;
+}
+
+void report_result(std::ostream& out, const Result& result) {
+  const MeshFigures& mesh = result.mesh;
+  out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs
+      << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min << " to "
+      << mesh.h_max << "\n\nContact steps";
+  if (result.rho > 0)
+    out << " by Uzawa's method, rho = " << result.rho;
+  else
+    out << " by the active set method";
+  out << '\n';
+  report_history(out, result.history);
+  if (!result.remark.empty())
+    out << "Note: " << result.remark << '\n';
+
+  const ContactPatch& patch = result.patch;
+  out << "\nResult\n" << std::setprecision(9);
+  if (patch.ends)
+    out << "  contact from " << patch.ends->first << " to " << patch.ends->second << ", half-width "
+        << patch.half_width() << ", " << patch.active_nodes << " nodes\n";
+  else
+    out << "  no contact\n";
+  out << "  contact force        F = " << patch.force << '\n'
+      << "  vertical load            " << patch.vertical_load << '\n'
+      << "  work-conjugate load  G = " << patch.work_conjugate_load << '\n'
+      << "  peak pressure            " << patch.peak_pressure << '\n'
+      << "  energy               J = " << result.energy.value
+      << ", a(u, u) = " << result.energy.norm_squared << '\n'
+      << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
+      << ", penetration " << result.residuals.penetration << ", negative pressure "
+      << result.residuals.negative_pressure << ", complementarity "
+      << result.residuals.complementarity << '\n'
+      << std::setprecision(6);
+}
+
+void report_files(std::ostream& out, const WrittenFiles& written) {
+  if (!written.files.empty())
+    out << "\nFiles\n";
+  for (const auto& file : written.files)
+    out << "  " << file.string() << '\n';
+  for (const std::string& remark : written.remarks)
+    out << "Note: " << remark << '\n';
+}
+
+void report_end(std::ostream& out, const Work& work, const WrittenFiles& written) {
+  out << "\nSeconds\n" << std::fixed << std::setprecision(3);
+  for (const auto& [phase, seconds] : work.seconds())
+    out << "  " << std::left << std::setw(20) << phase << std::right << std::setw(9) << seconds
+        << '\n';
+  out << "  " << std::left << std::setw(20) << "total" << std::right << std::setw(9)
+      << work.total_seconds() << '\n'
+      << std::defaultfloat << std::setprecision(6);
+  report_files(out, written);
+}
+
+} // namespace rollwave

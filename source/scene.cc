@@ -1,0 +1,125 @@
+#include "scene.h"
+
+#include "errors.h"
+#include "parameters.h"
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+std::function<double(double)> flat_road(double outer_radius, double distance) {
+  return [=](double z) { return -outer_radius - distance / std::sin(z); };
+}
+
+namespace {
+
+template <typename... Parts>
+std::string text(const Parts&... parts) {
+  std::ostringstream out;
+  out.precision(17);
+  (out << ... << parts);
+  return out.str();
+}
+
+/// Refuses radii and a speed for which the problem is not posed, or not elliptic.
+void check_cylinder(const Parameters& parameters) {
+  const auto& cylinder = parameters.cylinder;
+  const auto refuse = [&](const std::string& key, const std::string& wanted) {
+    throw BadInput(refusal(parameters.settings, "Cylinder", key, wanted));
+  };
+  if (!(cylinder.outer_radius > cylinder.inner_radius))
+    refuse("Outer radius",
+           text("it must be greater than the inner radius ", cylinder.inner_radius));
+
+  // The user's 1/b has been rounded, at most by the last digits of a decimal number.
+  const double critical = 1 / cylinder.outer_radius;
+  if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
+    refuse("Angular velocity", text("beyond 1/b = ", critical,
+                                    " the problem is no longer elliptic: the surface moves faster "
+                                    "than the waves"));
+}
+
+void check_road(const Parameters& parameters) {
+  const double b = parameters.cylinder.outer_radius;
+  const double c = parameters.road.distance;
+  const auto refuse = [&](const std::string& key, const std::string& wanted) {
+    throw BadInput(refusal(parameters.settings, "Road", key, wanted));
+  };
+  if (!(c > parameters.cylinder.inner_radius))
+    refuse("Distance", text("the road reaches the hub; it must be greater than the inner radius ",
+                            parameters.cylinder.inner_radius));
+  if (const auto& zone = parameters.road.contact_zone) {
+    if (!(numbers::PI < zone->first && zone->first < zone->second &&
+          zone->second < 2 * numbers::PI))
+      refuse("Contact zone",
+             text("it must be \"auto\" or \"z0, z1\" with pi < z0 < z1 < 2 pi, that "
+                  "is 3.14159... < z0 < z1 < 6.28318..."));
+  } else if (!(c < 2 * b))
+    refuse("Distance",
+           text("the zone of possible contact, where phi < b, is empty; it must be less "
+                "than twice the outer radius ",
+                b));
+}
+
+/// f as a function of r and z; empty for the number 0, so that no load is ever assembled.
+std::function<double(double, double)> parse_force(const Parameters& parameters) {
+  const std::string& expression = parameters.cylinder.radial_force;
+  char* end = nullptr;
+  const double number = std::strtod(expression.c_str(), &end);
+  if (*end == '\0' && number == 0)
+    return {};
+  if (*end == '\0' && std::isfinite(number))
+    return [number](double, double) { return number; };
+
+  auto parser = std::make_shared<FunctionParser<2>>(1);
+  const auto force = [parser](double r, double z) { return parser->value(Point<2>(r, z)); };
+  double middle = 0;
+  try {
+    parser->initialize("r,z", expression, {{"pi", numbers::PI}});
+    middle = force((parameters.cylinder.inner_radius + parameters.cylinder.outer_radius) / 2,
+                   numbers::PI);
+  } catch (const std::exception&) {
+    throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",
+                           "it must be an expression in r and z, as in 1 + 0.5*r*cos(z)"));
+  }
+  if (!std::isfinite(middle))
+    throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",
+                           "it must be finite everywhere between the radii"));
+  return force;
+}
+
+} // namespace
+
+Scene make_scene(const Parameters& parameters) {
+  check_cylinder(parameters);
+  check_road(parameters);
+
+  Scene scene;
+  scene.inner_radius = parameters.cylinder.inner_radius;
+  scene.outer_radius = parameters.cylinder.outer_radius;
+  scene.angular_velocity = parameters.cylinder.angular_velocity;
+  scene.force = parse_force(parameters);
+  scene.road = flat_road(scene.outer_radius, parameters.road.distance);
+
+  if (const auto& zone = parameters.road.contact_zone) {
+    scene.zone_begin = zone->first;
+    scene.zone_end = zone->second;
+  } else {
+    // phi < b where sin z < -c / (2 b)
+    const double half_open = std::asin(parameters.road.distance / (2 * scene.outer_radius));
+    scene.zone_begin = numbers::PI + half_open;
+    scene.zone_end = 2 * numbers::PI - half_open;
+  }
+  return scene;
+}
+
+} // namespace rollwave

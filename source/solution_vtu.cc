@@ -1,0 +1,95 @@
+#include "solution_vtu.h"
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/tria.h>
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// One patch for each cell, with the element's own nodes at their deformed places.
+class DeformedCylinder : public DataOutInterface<2> {
+public:
+  explicit DeformedCylinder(const Solution& solution);
+
+private:
+  const std::vector<DataOutBase::Patch<2>>& get_patches() const override { return patches; }
+  std::vector<std::string> get_dataset_names() const override {
+    return {"displacement", "pressure"};
+  }
+
+  std::vector<DataOutBase::Patch<2>> patches;
+};
+
+/// lambda on the surface, for each degree of freedom; not a number elsewhere.
+std::vector<float> nodal_pressure(const Solution& solution) {
+  const RingSpace& space = *solution.space;
+  std::vector<float> pressure(space.dof_handler().n_dofs(),
+                              std::numeric_limits<float>::quiet_NaN());
+  for (const SurfaceNode& node : space.surface_nodes())
+    pressure[node.dof] = 0;
+  for (unsigned int i = 0; i < space.contact_nodes().size(); ++i)
+    pressure[space.contact_nodes()[i].dof] = solution.result.contact_rows[i].pressure;
+  return pressure;
+}
+
+DeformedCylinder::DeformedCylinder(const Solution& solution) {
+  const RingSpace& space = *solution.space;
+  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
+  // From the order of points in a patch, r running fastest, to the element's own order.
+  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
+  FEValues<2> values(space.mapping(), element, element.get_unit_support_points(),
+                     update_quadrature_points);
+  const std::vector<float> pressure = nodal_pressure(solution);
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(dofs);
+    DataOutBase::Patch<2> patch;
+    patch.patch_index = patches.size();
+    patch.n_subdivisions = element.degree;
+    patch.points_are_available = true;
+    patch.data.reinit(4, dofs.size());
+    for (unsigned int i = 0; i < dofs.size(); ++i) {
+      const unsigned int node = numbering[i];
+      const double u = solution.displacement(dofs[node]);
+      const double r = values.quadrature_point(node)[0] + u;
+      const double z = values.quadrature_point(node)[1];
+      // A node on the seam and the node that equals it carry the same pressure.
+      types::global_dof_index dof = dofs[node];
+      if (std::isnan(pressure[dof]))
+        if (const auto* entries = space.constraints().get_constraint_entries(dof))
+          if (entries->size() == 1)
+            dof = entries->front().first;
+      patch.data(0, i) = u;
+      patch.data(1, i) = pressure[dof];
+      patch.data(2, i) = r * std::cos(z);
+      patch.data(3, i) = r * std::sin(z);
+    }
+    for (const unsigned int vertex : cell->vertex_indices())
+      patch.vertices[vertex] = cell->vertex(vertex);
+    patches.push_back(std::move(patch));
+  }
+}
+
+} // namespace
+
+void write_solution_vtu(std::ostream& out, const Solution& solution) {
+  DeformedCylinder cylinder(solution);
+  DataOutBase::VtkFlags flags;
+  flags.write_higher_order_cells = solution.result.mesh.degree > 1;
+  flags.compression_level = decltype(flags.compression_level)::best_speed;
+  cylinder.set_flags(flags);
+  cylinder.write_vtu(out);
+}
+
+} // namespace rollwave

@@ -1,0 +1,151 @@
+#include "sparse_cholesky.h"
+
+#include "errors.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+namespace rollwave {
+
+/// CHOLMOD's objects, released together.
+struct SparseCholesky::Cholmod {
+  cholmod_common common;
+  cholmod_sparse* matrix = nullptr;
+  cholmod_factor* factor = nullptr;
+
+  Cholmod() {
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.print = 0;
+    // The ordering given is final: a postordering could mix the trailing unknowns with others.
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    common.postorder = 0;
+  }
+
+  ~Cholmod() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_free_sparse(&matrix, &common);
+    cholmod_finish(&common);
+  }
+
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  void check(const std::string& step) const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+      throw NotSolved("the " + step +
+                      " of the stiffness matrix needs more memory than there is; lower "
+                      "Mesh/Radial cells, Mesh/Angular cells or Mesh/Global refinements");
+    if (common.status == CHOLMOD_NOT_POSDEF)
+      throw NotSolved("the stiffness matrix is not positive definite in floating-point arithmetic "
+                      "(" +
+                      step + "); use cells that are less stretched");
+    if (common.status < 0)
+      throw NotSolved("the " + step + " of the stiffness matrix failed in CHOLMOD, status " +
+                      std::to_string(common.status));
+  }
+
+  /// Solves with one of the systems L, Lt, P, Pt.
+  std::vector<double> solve(int system, const std::vector<double>& rhs) {
+    cholmod_dense b = view(const_cast<double*>(rhs.data()), rhs.size());
+    cholmod_dense* x = cholmod_solve(system, factor, &b, &common);
+    check("solution");
+    const double* const values = static_cast<const double*>(x->x);
+    std::vector<double> result(values, values + rhs.size());
+    cholmod_free_dense(&x, &common);
+    return result;
+  }
+
+  static cholmod_dense view(double* values, std::size_t size) {
+    cholmod_dense dense = {};
+    dense.nrow = dense.nzmax = dense.d = size;
+    dense.ncol = 1;
+    dense.x = values;
+    dense.xtype = CHOLMOD_REAL;
+    dense.dtype = CHOLMOD_DOUBLE;
+    return dense;
+  }
+};
+
+SparseCholesky::SparseCholesky(int n, int m, const LowerTriplets& triplets)
+    : cholmod(std::make_unique<Cholmod>()), n(n), m(m) {
+  cholmod_common& common = cholmod->common;
+
+  cholmod_triplet view = {};
+  view.nrow = view.ncol = n;
+  view.nnz = view.nzmax = triplets.values.size();
+  view.i = const_cast<int*>(triplets.rows.data());
+  view.j = const_cast<int*>(triplets.columns.data());
+  view.x = const_cast<double*>(triplets.values.data());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  cholmod->matrix = cholmod_triplet_to_sparse(&view, 0, &common);
+  cholmod->check("assembly");
+
+  std::vector<int> order(n), member(n, 0);
+  std::fill(member.end() - m, member.end(), 1);
+  cholmod_camd(cholmod->matrix, nullptr, 0, member.data(), order.data(), &common);
+  cholmod->check("ordering");
+  std::iota(order.end() - m, order.end(), n - m);
+  cholmod->factor = cholmod_analyze_p(cholmod->matrix, order.data(), nullptr, 0, &common);
+  cholmod->check("analysis");
+}
+
+SparseCholesky::~SparseCholesky() = default;
+
+void SparseCholesky::factorise() {
+  cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
+  cholmod->check("factorisation");
+}
+
+std::vector<double> SparseCholesky::multiply(const std::vector<double>& x) const {
+  std::vector<double> y(x.size());
+  cholmod_dense source = Cholmod::view(const_cast<double*>(x.data()), x.size());
+  cholmod_dense target = Cholmod::view(y.data(), y.size());
+  double one[2] = {1, 0}, zero[2] = {0, 0};
+  cholmod_sdmult(cholmod->matrix, 0, one, zero, &source, &target, &cholmod->common);
+  return y;
+}
+
+std::vector<double> SparseCholesky::forward(const std::vector<double>& b) {
+  return cholmod->solve(CHOLMOD_L, cholmod->solve(CHOLMOD_P, b));
+}
+
+std::vector<double> SparseCholesky::backward(const std::vector<double>& y) {
+  return cholmod->solve(CHOLMOD_Pt, cholmod->solve(CHOLMOD_Lt, y));
+}
+
+dealii::FullMatrix<double> SparseCholesky::trailing_factor() const {
+  const cholmod_factor& factor = *cholmod->factor;
+  const int* const first_columns = static_cast<const int*>(factor.super);
+  const int* const row_starts = static_cast<const int*>(factor.pi);
+  const int* const value_starts = static_cast<const int*>(factor.px);
+  const int* const rows = static_cast<const int*>(factor.s);
+  const double* const values = static_cast<const double*>(factor.x);
+  const int first = n - m;
+
+  dealii::FullMatrix<double> trailing(m, m);
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const int n_rows = row_starts[s + 1] - row_starts[s];
+    for (int column = std::max(first, first_columns[s]); column < first_columns[s + 1]; ++column) {
+      const int local_column = column - first_columns[s];
+      // A supernode is a dense block stored by columns; what lies above its diagonal is undefined.
+      const double* const block_column = values + value_starts[s] + local_column * n_rows;
+      for (int local_row = local_column; local_row < n_rows; ++local_row)
+        trailing(rows[row_starts[s] + local_row] - first, column - first) = block_column[local_row];
+    }
+  }
+  return trailing;
+}
+
+double SparseCholesky::n_factor_entries() const {
+  return cholmod->factor->xsize;
+}
+
+} // namespace rollwave

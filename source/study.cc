@@ -1,0 +1,70 @@
+#include "study.h"
+
+#include "errors.h"
+#include "simulation.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <ostream>
+
+namespace rollwave {
+
+namespace {
+
+/// All combinations of one setting from each list, the last list varying fastest.
+std::vector<std::vector<Setting>> combinations(const std::vector<std::vector<Setting>>& lists) {
+  std::vector<std::vector<Setting>> all(1);
+  for (const auto& list : lists) {
+    std::vector<std::vector<Setting>> longer;
+    for (const auto& combination : all)
+      for (const Setting& setting : list) {
+        longer.push_back(combination);
+        longer.back().push_back(setting);
+      }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// The parameters of one run, which is no study itself.
+Parameters run_parameters(const Parameters& parameters, const std::vector<Setting>& varied) {
+  std::vector<Setting> settings = parameters.settings;
+  settings.insert(settings.end(), varied.begin(), varied.end());
+  return read_parameters(settings);
+}
+
+} // namespace
+
+std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& progress) {
+  const auto varied = combinations(parameters.study.vary);
+  const auto& published = parameters.study.published_steps;
+  if (!published.empty() && published.size() != varied.size())
+    throw BadInput(refusal(parameters.settings, "Study", "Published steps",
+                           "there are " + std::to_string(published.size()) + " entries for " +
+                               std::to_string(varied.size()) + " runs"));
+  for (const auto& settings : varied)
+    make_scene(run_parameters(parameters, settings));
+
+  std::vector<StudyRun> runs;
+  for (const auto& settings : varied) {
+    StudyRun run;
+    run.settings = settings;
+    if (!published.empty())
+      run.published_steps = published[runs.size()];
+    progress << "run " << runs.size() + 1 << " of " << varied.size() << ':';
+    for (const Setting& setting : settings)
+      progress << "  " << setting.path() << " = " << setting.value;
+    progress << std::endl;
+    try {
+      const Parameters own = run_parameters(parameters, settings);
+      run.result = simulate(make_scene(own), own).result;
+    } catch (const NotSolved& failure) {
+      run.failure = failure.what();
+      progress << "  not solved: " << run.failure << std::endl;
+    }
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
+} // namespace rollwave

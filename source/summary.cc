@@ -1,0 +1,72 @@
+#include "summary.h"
+
+#include "version.h"
+
+#include <deal.II/base/utilities.h>
+
+#include <nlohmann/json.hpp>
+
+namespace rollwave {
+
+std::string summary_json(const Scene& scene, const Parameters& parameters, const Result& result) {
+  using Json = nlohmann::ordered_json;
+  Json json;
+  json["program"] = version_text();
+  json["scene"] = {{"inner_radius", scene.inner_radius},
+                   {"outer_radius", scene.outer_radius},
+                   {"angular_velocity", scene.angular_velocity},
+                   {"road_distance", parameters.road.distance},
+                   {"radial_force", parameters.cylinder.radial_force},
+                   {"zone_begin", scene.zone_begin},
+                   {"zone_end", scene.zone_end}};
+  json["mesh"] = {{"degree", result.mesh.degree}, {"cells", result.mesh.cells},
+                  {"dofs", result.mesh.dofs},     {"contact_nodes", result.mesh.contact_nodes},
+                  {"h_min", result.mesh.h_min},   {"h_max", result.mesh.h_max}};
+
+  const ContactPatch& patch = result.patch;
+  const auto number_or_null = [](bool exists, double number) {
+    return exists ? Json(number) : Json(nullptr);
+  };
+  const auto [left, right] = patch.ends.value_or(std::pair(0., 0.));
+  json["contact"] = {{"left_end", number_or_null(patch.ends.has_value(), left)},
+                     {"right_end", number_or_null(patch.ends.has_value(), right)},
+                     {"half_width", patch.half_width()},
+                     {"force", patch.force},
+                     {"vertical_load", patch.vertical_load},
+                     {"work_conjugate_load", patch.work_conjugate_load},
+                     {"peak_pressure", patch.peak_pressure},
+                     {"active_nodes", patch.active_nodes}};
+  json["energy"] = {{"value", result.energy.value}, {"norm_squared", result.energy.norm_squared}};
+  json["residuals"] = {{"equilibrium", result.residuals.equilibrium},
+                       {"penetration", result.residuals.penetration},
+                       {"negative_pressure", result.residuals.negative_pressure},
+                       {"complementarity", result.residuals.complementarity}};
+
+  const bool is_uzawa = parameters.contact.method == ContactMethod::uzawa;
+  json["iterations"] = {{"method", is_uzawa ? "uzawa" : "active set"},
+                        {"contact", result.history.size()},
+                        {"linear", 0}};
+  if (is_uzawa)
+    json["iterations"]["rho"] = result.rho;
+  if (!result.remark.empty())
+    json["iterations"]["remark"] = result.remark;
+
+  const Work& work = result.work;
+  json["work"] = {{"load_assemblies", work.load_assemblies},
+                  {"stiffness_assemblies", work.stiffness_assemblies},
+                  {"factorisations", work.factorisations},
+                  {"dense_factorisations", work.dense_factorisations},
+                  {"forward_substitutions", work.forward_substitutions},
+                  {"back_substitutions", work.back_substitutions},
+                  {"bytes_written", work.bytes_written}};
+  for (const auto& [phase, seconds] : work.seconds())
+    json["seconds"][phase] = seconds;
+  json["seconds"]["total"] = work.total_seconds();
+
+  dealii::Utilities::System::MemoryStats memory;
+  dealii::Utilities::System::get_memory_stats(memory);
+  json["peak_memory_mib"] = memory.VmHWM / 1024.;
+  return json.dump(2) + "\n";
+}
+
+} // namespace rollwave

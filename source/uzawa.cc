@@ -1,0 +1,145 @@
+#include "uzawa.h"
+
+#include "active_set.h"
+#include "errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// Two bounds of rho: below the first the method converges from anywhere; above the second the
+/// solution itself repels, so that it cannot converge.
+struct RhoBounds {
+  double safe;
+  double largest;
+};
+
+RhoBounds rho_bounds(StiffnessSolver& solver, const ContactProblem& problem,
+                     const UzawaSettings& settings) {
+  const ContactSolution exact = active_set(solver, problem, settings.most_steps);
+  return {2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
+          2 / largest_compliance(solver, problem, exact.active)};
+}
+
+[[noreturn]] void give_up(StiffnessSolver& solver, const ContactProblem& problem,
+                          const UzawaSettings& settings, double rho, std::size_t steps,
+                          double reached) {
+  const RhoBounds bounds = rho_bounds(solver, problem, settings);
+  std::ostringstream message;
+  message << "Uzawa's method " << (rho < bounds.safe ? "stagnates" : "diverges")
+          << " with rho = " << rho << ": in " << steps << " steps its residual fell to " << reached
+          << ", wanted " << settings.tolerance << "; ";
+  if (rho < bounds.safe)
+    message << "raise Contact/Tolerance above round-off";
+  else
+    message << "lower Contact/Rho: the largest rho that can converge is " << bounds.largest
+            << ", and every rho below " << bounds.safe << " does";
+  throw NotSolved(message.str());
+}
+
+} // namespace
+
+double largest_compliance(StiffnessSolver& solver, const ContactProblem& problem,
+                          const std::vector<bool>& nodes) {
+  const std::vector<bool> none(problem.size(), false);
+  ContactState state;
+  state.displacement.reinit(problem.size());
+  state.force.reinit(problem.size());
+  solver.solve(none, state);
+  const Vector<double> at_rest = state.displacement;
+
+  // The dominant mode is a push of one sign everywhere.
+  Vector<double> pressure(problem.size());
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    pressure(i) = nodes[i] ? 1. : 0.;
+
+  double compliance = 0;
+  for (unsigned int iteration = 0; iteration < 100; ++iteration) {
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      state.force(i) = problem.weight(i) * pressure(i);
+    solver.solve(none, state);
+    double response = 0, norm_squared = 0, largest = 0;
+    for (unsigned int i = 0; i < problem.size(); ++i) {
+      const double pushed = nodes[i] ? at_rest(i) - state.displacement(i) : 0.;
+      response += problem.weight(i) * pressure(i) * pushed;
+      norm_squared += problem.weight(i) * pressure(i) * pressure(i);
+      largest = std::max(largest, std::abs(pushed));
+      pressure(i) = pushed;
+    }
+    const double previous = compliance;
+    compliance = response / norm_squared;
+    pressure /= largest;
+    if (compliance - previous < 1e-7 * compliance)
+      break;
+  }
+  return compliance;
+}
+
+ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
+                      const UzawaSettings& settings) {
+  const unsigned int n = problem.size();
+  const std::vector<bool> none(n, false);
+  const double rho = settings.rho
+                         ? *settings.rho
+                         : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
+
+  ContactSolution solution;
+  solution.rho = rho;
+  solution.active.assign(n, false);
+  auto& [displacement, force] = solution.state;
+  displacement.reinit(n);
+  force.reinit(n);
+  solver.solve(none, solution.state);
+
+  Vector<double> p(n);
+  double smallest = std::numeric_limits<double>::max();
+  unsigned int steps_without_progress = 0;
+  while (solution.history.size() < settings.most_steps) {
+    ContactStep step = {};
+    double correction_squared = 0;
+    for (unsigned int i = 0; i < n; ++i) {
+      const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
+      correction_squared += (next - p(i)) * (next - p(i));
+      p(i) = next;
+      force(i) = -problem.weight(i) * next;
+      step.active += next < 0;
+      step.changed += solution.active[i] != (next < 0);
+      solution.active[i] = next < 0;
+      step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
+    }
+    Vector<double> change = displacement;
+    if (correction_squared > 0)
+      solver.solve(none, solution.state);
+    change -= displacement;
+
+    const double size = displacement.l2_norm();
+    const double violation = std::sqrt(correction_squared) / rho;
+    const double measured = settings.stop == UzawaStop::gap ? violation : change.l2_norm();
+    step.residual = size > 0 ? measured / size : measured;
+    solution.history.push_back(step);
+    // A scene without contact is solved when the first projection leaves p at zero.
+    if (measured <= settings.tolerance * size)
+      return solution;
+
+    // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
+    if (step.residual < smallest) {
+      smallest = step.residual;
+      steps_without_progress = 0;
+    } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
+      give_up(solver, problem, settings, rho, solution.history.size(), smallest);
+  }
+  std::ostringstream message;
+  message << "Uzawa's method has not reached the tolerance " << settings.tolerance << " after "
+          << settings.most_steps << " steps with rho = " << rho << ": the residual is "
+          << solution.history.back().residual << "; raise Contact/Rho or Contact/Most steps";
+  throw NotSolved(message.str());
+}
+
+} // namespace rollwave
