@@ -12,9 +12,14 @@ namespace rollwave {
  * (N_i < 0) and adds the others that penetrate (u_i > phi_i), until nothing changes. With exact
  * solves N_i + kappa (u_i - phi_i) > 0 says just that for every kappa > 0, so none is chosen.
  *
- * A set seen before would begin a cycle. From then on only the first node of the wrong sign changes
- * in each step, the least-index rule, which ends for every symmetric positive definite matrix
- * (K. G. Murty, Opsearch 11 (1974); J. J. Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
+ * These signs alone move an end of contact by a fraction of its error, and by a single node where
+ * cells are much longer in r than in z. So the ends leap (move_ends()): how far the pressure or the
+ * gap has the wrong sign tells where the end belongs.
+ *
+ * A set seen before would begin a cycle. From then on nodes change by sign alone; after a second
+ * repetition only the first node of the wrong sign changes in each step, the least-index rule,
+ * which ends for every symmetric positive definite matrix (K. G. Murty, Opsearch 11 (1974); J. J.
+ * Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
  *
  * @throws NotSolved after @p most_steps steps.
  */

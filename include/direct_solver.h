@@ -30,10 +30,12 @@ public:
                Work& work);
 
   void solve(const std::vector<bool>& pinned, ContactState& state) override;
+  dealii::Vector<double> response(const dealii::Vector<double>& force) override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 
 private:
+  void factorise_free_block(const std::vector<bool>& pinned);
   std::vector<double> gather(const FieldVector& field) const;
   FieldVector scatter(const std::vector<double>& unknowns) const;
 

@@ -34,6 +34,10 @@ public:
   /// and u_i on the others. All arrays have one entry for each contact node.
   virtual void solve(const std::vector<bool>& pinned, ContactState& state) = 0;
 
+  /// The displacement C N of the contact nodes towards the hub when nodal forces N push on them and
+  /// nothing else does: C is the compliance, the inverse of the Schur complement of these nodes.
+  virtual dealii::Vector<double> response(const dealii::Vector<double>& force) = 0;
+
   /// The field u of a state that solve() has left, constraints included.
   virtual FieldVector displacement_field(const ContactState& state) = 0;
 

@@ -1,5 +1,6 @@
 #include "active_set.h"
 
+#include "contact_ends.h"
 #include "errors.h"
 
 #include <algorithm>
@@ -15,6 +16,13 @@ namespace {
 /// Signs are judged beyond these multiples of the largest displacement and pressure: what exact
 /// arithmetic would make zero comes out as round-off of this size.
 constexpr double round_off = 1e-14;
+
+unsigned int count_changes(const std::vector<bool>& active, const std::vector<bool>& next) {
+  unsigned int count = 0;
+  for (unsigned int i = 0; i < active.size(); ++i)
+    count += active[i] != next[i];
+  return count;
+}
 
 ContactStep judge(const ContactProblem& problem, const ContactSolution& solution,
                   std::vector<bool>& next) {
@@ -37,9 +45,8 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
       step.penetration = std::max(step.penetration, penetration);
       next[i] = penetration > round_off * scale;
     }
-    step.changed += next[i] != solution.active[i];
   }
-  step.residual = static_cast<double>(step.changed) / problem.size();
+  step.changed = count_changes(solution.active, next);
   return step;
 }
 
@@ -58,8 +65,8 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
 
+  enum class Change { leaping, by_sign, one_by_one } change = Change::leaping;
   std::set<std::vector<bool>> visited;
-  bool one_by_one = false;
   for (;;) {
     for (unsigned int i = 0; i < problem.size(); ++i)
       if (solution.active[i])
@@ -70,19 +77,29 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
 
     std::vector<bool> next;
     solution.history.push_back(judge(problem, solution, next));
-    if (solution.history.back().changed == 0)
+    ContactStep& step = solution.history.back();
+    if (step.changed == 0)
       return solution;
     if (solution.history.size() >= most_steps)
       throw NotSolved("the active set method has not ended after " + std::to_string(most_steps) +
-                      " steps: " + std::to_string(solution.history.back().changed) +
+                      " steps: " + std::to_string(step.changed) +
                       " nodes still change; raise Contact/Most steps");
 
-    one_by_one = one_by_one || !visited.insert(solution.active).second;
-    if (one_by_one) {
-      keep_first_change(solution.active, next);
-      solution.history.back().changed = 1;
-      solution.remark = "the active set repeated itself; from then on one node changed at a time";
+    if (change != Change::one_by_one && !visited.insert(solution.active).second) {
+      change = change == Change::leaping ? Change::by_sign : Change::one_by_one;
+      solution.remark =
+          change == Change::by_sign
+              ? "the active set repeated itself; from then on it changed by sign alone"
+              : "the active set repeated itself; from then on one node changed at a "
+                "time";
+      visited = {solution.active};
     }
+    if (change == Change::leaping)
+      move_ends(problem, solution, next);
+    else if (change == Change::one_by_one)
+      keep_first_change(solution.active, next);
+    step.changed = count_changes(solution.active, next);
+    step.residual = static_cast<double>(step.changed) / problem.size();
     solution.active = std::move(next);
   }
 }

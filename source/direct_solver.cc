@@ -1,6 +1,7 @@
 #include "direct_solver.h"
 
 #include "assembly.h"
+#include "memory.h"
 #include "scene.h"
 
 #include <numeric>
@@ -78,6 +79,10 @@ DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
   }
   {
     const Work::Phase phase(work, "factorisation");
+    // L; then S, its factor L_cc and the factor of its block of free nodes
+    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 3. * m * m),
+                   "the factor of the stiffness matrix with " + std::to_string(m) +
+                       " contact nodes");
     cholesky->factorise();
     ++work.factorisations;
   }
@@ -95,27 +100,37 @@ DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
   }
 }
 
+void DirectSolver::factorise_free_block(const std::vector<bool>& pinned) {
+  if (free_block && free_block->pinned == pinned)
+    return;
+  free_block.emplace();
+  free_block->pinned = pinned;
+  auto& nodes = free_block->nodes;
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (!pinned[i])
+      nodes.push_back(i);
+  if (nodes.empty())
+    return;
+  free_block->factor.reinit(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    for (unsigned int j = 0; j < nodes.size(); ++j)
+      free_block->factor(i, j) = schur(nodes[i], nodes[j]);
+  free_block->factor.set_property(LAPACKSupport::symmetric);
+  free_block->factor.compute_cholesky_factorization();
+  ++work.dense_factorisations;
+}
+
+Vector<double> DirectSolver::response(const Vector<double>& force) {
+  factorise_free_block(std::vector<bool>(force.size(), false));
+  Vector<double> displacement = force;
+  free_block->factor.solve(displacement);
+  return displacement;
+}
+
 void DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state) {
   const unsigned int m = contact_load.size();
   AssertDimension(pinned.size(), m);
-
-  if (!free_block || free_block->pinned != pinned) {
-    free_block.emplace();
-    free_block->pinned = pinned;
-    for (unsigned int i = 0; i < m; ++i)
-      if (!pinned[i])
-        free_block->nodes.push_back(i);
-    const auto& nodes = free_block->nodes;
-    free_block->factor.reinit(nodes.size());
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int j = 0; j < nodes.size(); ++j)
-        free_block->factor(i, j) = schur(nodes[i], nodes[j]);
-    if (!nodes.empty()) {
-      free_block->factor.set_property(LAPACKSupport::symmetric);
-      free_block->factor.compute_cholesky_factorization();
-      ++work.dense_factorisations;
-    }
-  }
+  factorise_free_block(pinned);
 
   const auto& nodes = free_block->nodes;
   if (!nodes.empty()) {

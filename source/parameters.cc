@@ -357,7 +357,7 @@ void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
   Declarations keys(prm);
   declare(keys, parameters);
   apply(prm, keys, settings);
-  prm.print_parameters(out, ParameterHandler::PRM);
+  prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 
 } // namespace rollwave

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -70,6 +71,29 @@ void check_road(const Parameters& parameters) {
                 b));
 }
 
+/// Keeps what is written to std::cerr while it lives: deal.II prints the parser's complaints there.
+class CapturedErrors {
+public:
+  CapturedErrors() : original(std::cerr.rdbuf(captured.rdbuf())) {}
+  ~CapturedErrors() { std::cerr.rdbuf(original); }
+  CapturedErrors(const CapturedErrors&) = delete;
+  CapturedErrors& operator=(const CapturedErrors&) = delete;
+
+  /// The rest of the first line that has @p label; empty without one.
+  std::string line_after(const std::string& label) const {
+    const std::string all = captured.str();
+    const auto found = all.find(label);
+    if (found == std::string::npos)
+      return {};
+    const auto begin = found + label.size();
+    return trimmed(all.substr(begin, all.find('\n', begin) - begin));
+  }
+
+private:
+  std::ostringstream captured;
+  std::streambuf* original;
+};
+
 /// f as a function of r and z; empty for the number 0, so that no load is ever assembled.
 std::function<double(double, double)> parse_force(const Parameters& parameters) {
   const std::string& expression = parameters.cylinder.radial_force;
@@ -83,13 +107,15 @@ std::function<double(double, double)> parse_force(const Parameters& parameters) 
   auto parser = std::make_shared<FunctionParser<2>>(1);
   const auto force = [parser](double r, double z) { return parser->value(Point<2>(r, z)); };
   double middle = 0;
+  const CapturedErrors captured;
   try {
     parser->initialize("r,z", expression, {{"pi", numbers::PI}});
     middle = force((parameters.cylinder.inner_radius + parameters.cylinder.outer_radius) / 2,
                    numbers::PI);
   } catch (const std::exception&) {
     throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",
-                           "it must be an expression in r and z, as in 1 + 0.5*r*cos(z)"));
+                           "it must be an expression in r and z, as in 1 + 0.5*r*cos(z). " +
+                               captured.line_after("Message:")));
   }
   if (!std::isfinite(middle))
     throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",

@@ -3,6 +3,7 @@
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
 #include <cmath>
@@ -56,6 +57,7 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
     cell->get_dof_indices(dofs);
     DataOutBase::Patch<2> patch;
     patch.patch_index = patches.size();
+    patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
     patch.data.reinit(4, dofs.size());

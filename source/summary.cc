@@ -1,8 +1,7 @@
 #include "summary.h"
 
+#include "memory.h"
 #include "version.h"
-
-#include <deal.II/base/utilities.h>
 
 #include <nlohmann/json.hpp>
 
@@ -63,9 +62,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
     json["seconds"][phase] = seconds;
   json["seconds"]["total"] = work.total_seconds();
 
-  dealii::Utilities::System::MemoryStats memory;
-  dealii::Utilities::System::get_memory_stats(memory);
-  json["peak_memory_mib"] = memory.VmHWM / 1024.;
+  json["peak_memory_mib"] = peak_memory_mib();
   return json.dump(2) + "\n";
 }
 

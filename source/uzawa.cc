@@ -48,13 +48,6 @@ RhoBounds rho_bounds(StiffnessSolver& solver, const ContactProblem& problem,
 
 double largest_compliance(StiffnessSolver& solver, const ContactProblem& problem,
                           const std::vector<bool>& nodes) {
-  const std::vector<bool> none(problem.size(), false);
-  ContactState state;
-  state.displacement.reinit(problem.size());
-  state.force.reinit(problem.size());
-  solver.solve(none, state);
-  const Vector<double> at_rest = state.displacement;
-
   // The dominant mode is a push of one sign everywhere.
   Vector<double> pressure(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
@@ -62,19 +55,18 @@ double largest_compliance(StiffnessSolver& solver, const ContactProblem& problem
 
   double compliance = 0;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      state.force(i) = problem.weight(i) * pressure(i);
-    solver.solve(none, state);
-    double response = 0, norm_squared = 0, largest = 0;
+    Vector<double> force = pressure;
+    force.scale(problem.weight);
+    const Vector<double> response = solver.response(force);
+    double work = 0, norm_squared = 0, largest = 0;
     for (unsigned int i = 0; i < problem.size(); ++i) {
-      const double pushed = nodes[i] ? at_rest(i) - state.displacement(i) : 0.;
-      response += problem.weight(i) * pressure(i) * pushed;
-      norm_squared += problem.weight(i) * pressure(i) * pressure(i);
-      largest = std::max(largest, std::abs(pushed));
-      pressure(i) = pushed;
+      work += force(i) * response(i);
+      norm_squared += force(i) * pressure(i);
+      pressure(i) = nodes[i] ? response(i) : 0.;
+      largest = std::max(largest, std::abs(pressure(i)));
     }
     const double previous = compliance;
-    compliance = response / norm_squared;
+    compliance = work / norm_squared;
     pressure /= largest;
     if (compliance - previous < 1e-7 * compliance)
       break;

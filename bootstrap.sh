@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# Sets everything up on Debian 12 and runs the program or its tests; see usage() below.
+set -euo pipefail
+cd "$(dirname "$0")"
+
+usage() {
+  cat <<'TEXT'
+Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: prm/figure-4.prm)
+       ./bootstrap.sh test [OPTIONS of ctest]
+       ./bootstrap.sh benchmark
+
+Each installs the Debian packages that are missing, builds in ./build, and runs.
+TEXT
+}
+
+program_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
+  nlohmann-json3-dev gnuplot-nox)
+test_packages=(libgtest-dev python3-vtk9)
+
+install_missing() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f '${db:Status-Abbrev}' "$package" 2>/dev/null | grep -q '^ii' ||
+      missing+=("$package")
+  done
+  [ ${#missing[@]} -eq 0 ] && return
+  echo "Installing: ${missing[*]}"
+  local as_root=()
+  [ "$(id -u)" -eq 0 ] || as_root=(sudo)
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq \
+    --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+build() {
+  # With tests or without, the objects of the program are the same and stay.
+  cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING="$1" >build.log 2>&1 &&
+    cmake --build build --target "$2" >>build.log 2>&1 || {
+    cat build.log >&2
+    exit 1
+  }
+  rm -f build.log
+}
+
+case "${1:-}" in
+run)
+  shift
+  install_missing "${program_packages[@]}"
+  build OFF rollwave
+  [ $# -gt 0 ] || set -- prm/figure-4.prm
+  exec build/rollwave "$@"
+  ;;
+test)
+  shift
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build ON all
+  exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
+  ;;
+benchmark)
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build ON rollwave_benchmark
+  exec build/tests/rollwave_benchmark
+  ;;
+*)
+  usage >&2
+  exit 1
+  ;;
+esac

@@ -1,0 +1,18 @@
+#ifndef ROLLWAVE_MEMORY_H
+#define ROLLWAVE_MEMORY_H
+
+#include <string>
+
+namespace rollwave {
+
+/// Refuses work that would drive the machine out of memory, where the system might end any process
+/// instead of failing an allocation. Does nothing where the free memory is not known.
+/// @throws NotSolved when less than @p bytes are available; @p purpose says what needs them.
+void require_memory(double bytes, const std::string& purpose);
+
+/// The largest amount of memory this process has held so far, in MiB.
+double peak_memory_mib();
+
+} // namespace rollwave
+
+#endif

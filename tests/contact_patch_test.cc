@@ -1,0 +1,73 @@
+// The sub-cell fit finds the ends of contact, and resultants are sums over the nodes.
+#include "contact_patch.h"
+
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace rollwave;
+
+namespace {
+
+/// Contact between @p left and @p right with the exact end laws of exponent s.
+ContactPatch patch_of(double left, double right, double s, double omega, double begin, double end,
+                      unsigned int n) {
+  const Scene scene{0.5, 1, omega, {}, {}, begin, end};
+  std::vector<SurfaceNode> nodes;
+  ContactProblem problem;
+  ContactSolution solution;
+  problem.road.reinit(n);
+  problem.weight.reinit(n);
+  solution.state.displacement.reinit(n);
+  solution.state.force.reinit(n);
+  for (unsigned int i = 0; i < n; ++i) {
+    const double z = begin + (end - begin) * i / (n - 1);
+    nodes.push_back({i, z, 0.1});
+    problem.weight(i) = 0.1;
+    const double outside = std::max(left - z, z - right);
+    solution.active.push_back(outside < 0);
+    if (outside < 0)
+      solution.state.force(i) = 0.1 * std::pow(std::min(z - left, right - z), 1 - s);
+    else
+      solution.state.displacement(i) = -std::pow(outside, 1 + s);
+  }
+  return measure_contact_patch(scene, nodes, problem, solution);
+}
+
+TEST(ContactPatch, EndsAreExactForTheirOwnLaws) {
+  const auto slow = patch_of(4.2137, 5.031, 0.5, 0.5, 3.6, 5.8, 60);
+  EXPECT_NEAR(slow.ends->first, 4.2137, 1e-12);
+  EXPECT_NEAR(slow.ends->second, 5.031, 1e-12);
+  const auto critical = patch_of(4.2137, 5.031, 1. / 3, 1, 3.6, 5.8, 60);
+  EXPECT_NEAR(critical.ends->first, 4.2137, 1e-12);
+  EXPECT_NEAR(critical.ends->second, 5.031, 1e-12);
+}
+
+TEST(ContactPatch, NearTheCriticalSpeedTheResolvedScaleDecides) {
+  // The nodes are 0.04 apart; (2 e)^(3/2) is 0.09 for e = 0.1 and 9e-5 for e = 0.001.
+  EXPECT_NEAR(patch_of(4.2137, 5.031, 0.5, 0.9, 3.6, 5.8, 60).ends->first, 4.2137, 1e-12);
+  EXPECT_NEAR(patch_of(4.2137, 5.031, 1. / 3, 0.999, 3.6, 5.8, 60).ends->first, 4.2137, 1e-12);
+}
+
+TEST(ContactPatch, EndsWithTheZoneWhereItCutsContactShort) {
+  const auto patch = patch_of(3, 4.9, 0.5, 0.5, 3.6, 5.8, 60);
+  EXPECT_EQ(patch.ends->first, 3.6);
+  EXPECT_NEAR(patch.ends->second, 4.9, 1e-12);
+}
+
+TEST(ContactPatch, OneNodeHasEndsAroundIt) {
+  const auto patch = patch_of(4.69, 4.71, 0.5, 0.5, 3.7, 5.7, 11);
+  EXPECT_EQ(patch.active_nodes, 1u);
+  EXPECT_GT(patch.half_width(), 0);
+  EXPECT_LT(patch.half_width(), 0.2);
+}
+
+TEST(ContactPatch, LoadsAreTheForceTurnedToTheVertical) {
+  const auto patch = patch_of(4.2, 5.1, 0.5, 0.5, 3.6, 5.8, 60);
+  EXPECT_LT(patch.vertical_load, patch.force);
+  EXPECT_LT(patch.force, patch.work_conjugate_load);
+}
+
+} // namespace

@@ -1,0 +1,202 @@
+// Both contact methods find the solution, prove it by its optimality conditions, and fail honestly.
+#include "active_set.h"
+#include "assembly.h"
+#include "errors.h"
+#include "test_scenes.h"
+#include "uzawa.h"
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+using namespace rollwave;
+using dealii::FullMatrix;
+using dealii::Vector;
+using dealii::numbers::PI;
+
+namespace {
+
+/// A contact problem on its own, without a ring: S u = g - N.
+class DenseSolver : public StiffnessSolver {
+public:
+  DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
+      : stiffness(stiffness), load(load) {}
+
+  void solve(const std::vector<bool>& pinned, ContactState& state) override {
+    const unsigned int n = load.size();
+    FullMatrix<double> matrix(n, n);
+    Vector<double> rhs(n), solution(n);
+    for (unsigned int i = 0; i < n; ++i) {
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) = pinned[i] ? (i == j) : stiffness(i, j);
+      rhs(i) = pinned[i] ? state.displacement(i) : load(i) - state.force(i);
+    }
+    matrix.gauss_jordan();
+    matrix.vmult(solution, rhs);
+    state.displacement = solution;
+    stiffness.vmult(rhs, solution);
+    for (unsigned int i = 0; i < n; ++i)
+      if (pinned[i])
+        state.force(i) = load(i) - rhs(i);
+  }
+
+  Vector<double> response(const Vector<double>&) override { return {}; }
+  FieldVector displacement_field(const ContactState&) override { return {}; }
+  FieldVector apply(const FieldVector&) const override { return {}; }
+
+private:
+  FullMatrix<double> stiffness;
+  Vector<double> load;
+};
+
+TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
+  // From the empty set the plain method visits {}, {0, 1}, {0, 2}, {}, ... for ever.
+  FullMatrix<double> stiffness(3, 3);
+  const double entries[] = {17, -7, 19, -7, 5, -7, 19, -7, 22};
+  stiffness.fill(entries);
+  Vector<double> load(3);
+  load(0) = 4;
+  load(1) = -4;
+  load(2) = 1;
+  DenseSolver solver(stiffness, load);
+  ContactProblem problem;
+  problem.road.reinit(3);
+  problem.weight.reinit(3);
+  problem.weight = 1;
+
+  const ContactSolution solution = active_set(solver, problem, 50);
+  EXPECT_FALSE(solution.remark.empty());
+  for (unsigned int i = 0; i < 3; ++i) {
+    EXPECT_LE(solution.state.displacement(i), 1e-14);
+    EXPECT_GE(solution.state.force(i), -1e-13);
+    EXPECT_NEAR(solution.state.force(i) * solution.state.displacement(i), 0, 1e-13);
+  }
+  EXPECT_THROW(active_set(solver, problem, 2), NotSolved);
+}
+
+/// A ring in contact with a constant obstacle around the whole circle.
+struct FullCircle {
+  FullCircle(int degree, double angular_velocity)
+      : parameters(parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=16",
+                                  "Mesh/Angular cells=12"})),
+        scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
+        solver(ring.space, scene, {}, work), problem(make_contact_problem(ring.space, scene)) {}
+
+  Parameters parameters;
+  Scene scene;
+  Discretisation ring;
+  Work work;
+  DirectSolver solver;
+  ContactProblem problem;
+};
+
+TEST(FullContact, HasItsExactForceAtEverySpeed) {
+  for (const double omega : {0., 0.5, 1.}) {
+    FullCircle circle(2, omega);
+    const ContactSolution solution = active_set(circle.solver, circle.problem, 10);
+    EXPECT_EQ(std::count(solution.active.begin(), solution.active.end(), true), 24);
+    double force = 0;
+    for (const double nodal : solution.state.force)
+      force += nodal;
+    EXPECT_NEAR(force, 2 * PI * 0.1 / std::log(2), 1e-6);
+    // Every node carries the same pressure.
+    for (unsigned int i = 0; i < circle.problem.size(); ++i)
+      EXPECT_NEAR(solution.state.force(i) / circle.problem.weight(i), force / (2 * PI), 1e-12);
+  }
+}
+
+TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
+  // A unit pressure all around displaces the surface by b ln(b / a).
+  FullCircle circle(2, 0.5);
+  const double mu = largest_compliance(circle.solver, circle.problem,
+                                       std::vector<bool>(circle.problem.size(), true));
+  EXPECT_NEAR(mu, std::log(2), 1e-6);
+}
+
+/// Mesh, solver and contact problem of a scene.
+struct Prepared {
+  explicit Prepared(const Parameters& parameters)
+      : scene(make_scene(parameters)), ring(scene, parameters),
+        load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
+        solver(ring.space, scene, load, work), problem(make_contact_problem(ring.space, scene)) {}
+
+  Scene scene;
+  Discretisation ring;
+  std::optional<FieldVector> load;
+  Work work;
+  DirectSolver solver;
+  ContactProblem problem;
+};
+
+TEST(Uzawa, AgreesWithTheActiveSetToItsTolerance) {
+  for (const PaperScene& paper : paper_scenes())
+    for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"}) {
+      Prepared scene(
+          with(paper.parameters(), {degree, "Mesh/Radial cells=6", "Mesh/Angular cells=90"}));
+      const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
+      for (const double tolerance : {1e-4, 1e-8, 1e-11}) {
+        const ContactSolution solution =
+            uzawa(scene.solver, scene.problem, {std::nullopt, UzawaStop::gap, tolerance, 100000});
+        Vector<double> difference = solution.state.displacement;
+        difference -= exact.state.displacement;
+        EXPECT_LE(difference.l2_norm(), tolerance * exact.state.displacement.l2_norm())
+            << "figure " << paper.figure << ' ' << degree << ", tolerance " << tolerance;
+      }
+    }
+}
+
+TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
+  Prepared scene(with(paper_scenes()[1].parameters(),
+                      {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=90"}));
+  const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
+  const double largest = 2 / largest_compliance(scene.solver, scene.problem, exact.active);
+  EXPECT_NO_THROW(
+      uzawa(scene.solver, scene.problem, {0.97 * largest, UzawaStop::gap, 1e-6, 100000}));
+  for (const double factor : {1.03, 1.5, 10.})
+    try {
+      uzawa(scene.solver, scene.problem, {factor * largest, UzawaStop::gap, 1e-6, 100000});
+      FAIL() << "rho is " << factor << " times the largest that can converge";
+    } catch (const NotSolved& failure) {
+      std::ostringstream number;
+      number << largest;
+      EXPECT_NE(std::string(failure.what()).find("diverges"), std::string::npos);
+      EXPECT_NE(std::string(failure.what()).find(number.str()), std::string::npos);
+    }
+}
+
+TEST(Uzawa, GivesUpAfterItsSteps) {
+  Prepared scene(with(paper_scenes()[0].parameters(), {"Mesh/Angular cells=40"}));
+  EXPECT_THROW(uzawa(scene.solver, scene.problem, {0.01, UzawaStop::gap, 1e-10, 30}), NotSolved);
+}
+
+TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {
+  // Mesh and stopping rule are those of prm/figure-9.prm; the counts are published in M2AN 25
+  // (1991), figure 9, where 0 stands for none.
+  const std::vector<double> rhos = {0.5, 1, 1.5, 2, 2.5, 2.75, 3, 3.25, 3.5};
+  const std::vector<std::vector<int>> published = {{37, 28, 0, 19, 17, 16, 14, 18, 28},
+                                                   {29, 19, 15, 12, 14, 21, 37, 0, 0}};
+  const double best_rho[] = {3, 2};
+  for (int figure = 0; figure < 2; ++figure) {
+    Prepared scene(with(paper_scenes()[figure].parameters(),
+                        {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=180"}));
+    std::vector<unsigned int> counts;
+    for (unsigned int i = 0; i < rhos.size() && (i == 2 || published[figure][i] > 0); ++i) {
+      counts.push_back(
+          uzawa(scene.solver, scene.problem, {rhos[i], UzawaStop::change, 2.5e-4, 1000})
+              .history.size());
+      if (published[figure][i] > 0) {
+        EXPECT_NEAR(counts.back(), published[figure][i], 5) << "rho = " << rhos[i];
+      }
+    }
+    const auto best = std::min_element(counts.begin(), counts.end());
+    EXPECT_EQ(std::count(counts.begin(), counts.end(), *best), 1);
+    EXPECT_EQ(rhos[best - counts.begin()], best_rho[figure]);
+  }
+}
+
+} // namespace

@@ -1,0 +1,186 @@
+// The factorisation answers every pinned problem exactly as dense algebra does.
+#include "direct_solver.h"
+
+#include "assembly.h"
+#include "errors.h"
+#include "test_scenes.h"
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace rollwave;
+using dealii::FullMatrix;
+using dealii::Vector;
+
+namespace {
+
+/// A random sparse symmetric positive definite matrix, as triplets and in full.
+struct RandomMatrix {
+  explicit RandomMatrix(int n) : full(n, n) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> value(-1, 1);
+    for (int i = 0; i < n; ++i)
+      add(i, i, n);
+    for (int k = 0; k < 4 * n; ++k)
+      add(random() % n, random() % n, value(random));
+  }
+
+  void add(int i, int j, double value) {
+    triplets.add(std::max(i, j), std::min(i, j), value);
+    full(i, j) += value;
+    if (i != j)
+      full(j, i) += value;
+  }
+
+  LowerTriplets triplets;
+  FullMatrix<double> full;
+};
+
+TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
+  const int n = 60, m = 13;
+  const RandomMatrix matrix(n);
+  SparseCholesky cholesky(n, m, matrix.triplets);
+  cholesky.factorise();
+  const FullMatrix<double> factor = cholesky.trailing_factor();
+  FullMatrix<double> schur(m, m);
+  factor.mTmult(schur, factor);
+
+  // The inverse of the Schur complement is the trailing block of the inverse.
+  FullMatrix<double> inverse(n, n);
+  inverse.invert(matrix.full);
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j) {
+      double product = 0;
+      for (int k = 0; k < m; ++k)
+        product += schur(i, k) * inverse(n - m + k, n - m + j);
+      EXPECT_NEAR(product, i == j, 1e-12);
+    }
+}
+
+TEST(SparseCholesky, SolvesAndMultiplies) {
+  const int n = 60;
+  const RandomMatrix matrix(n);
+  for (const int m : {0, 1, 20, n}) {
+    SparseCholesky cholesky(n, m, matrix.triplets);
+    cholesky.factorise();
+    std::vector<double> x(n);
+    for (int i = 0; i < n; ++i)
+      x[i] = std::sin(i);
+    const std::vector<double> solved = cholesky.backward(cholesky.forward(cholesky.multiply(x)));
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(solved[i], x[i], 1e-13);
+  }
+}
+
+TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
+  LowerTriplets triplets;
+  triplets.add(0, 0, 1);
+  triplets.add(1, 0, 2);
+  triplets.add(1, 1, 1);
+  SparseCholesky cholesky(2, 1, triplets);
+  EXPECT_THROW(cholesky.factorise(), NotSolved);
+}
+
+class Direct : public testing::TestWithParam<int> {
+protected:
+  Direct()
+      : parameters(
+            parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=2",
+                           "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
+        scene(make_scene(parameters)), ring(scene, parameters),
+        load(assemble_load(ring.space, scene)), solver(ring.space, scene, load, work) {}
+
+  const Parameters parameters;
+  const Scene scene;
+  const Discretisation ring;
+  const std::optional<FieldVector> load;
+  Work work;
+  DirectSolver solver;
+};
+
+TEST_P(Direct, StiffnessIsSymmetricAndSumsUpTheCells) {
+  // K x against the sum of cell matrices, with constraints applied to both factors.
+  FieldVector x = ring.space.make_field(), y = ring.space.make_field();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (unsigned int i = 0; i < x.size(); ++i) {
+    x(i) = value(random);
+    y(i) = value(random);
+  }
+  ring.space.constraints().distribute(x);
+  ring.space.constraints().distribute(y);
+  double by_cells = 0;
+  assemble_stiffness(ring.space, scene, [&](const auto& dofs, const auto& cell_matrix) {
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      for (unsigned int j = 0; j < dofs.size(); ++j)
+        by_cells += y(dofs[i]) * cell_matrix(i, j) * x(dofs[j]);
+  });
+  EXPECT_NEAR(y * solver.apply(x), by_cells, 1e-12 * std::abs(by_cells));
+  EXPECT_NEAR(x * solver.apply(y), by_cells, 1e-12 * std::abs(by_cells));
+}
+
+TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
+  const unsigned int m = ring.space.contact_nodes().size();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (int trial = 0; trial < 8; ++trial) {
+    std::vector<bool> pinned(m);
+    ContactState state;
+    state.displacement.reinit(m);
+    state.force.reinit(m);
+    for (unsigned int i = 0; i < m; ++i) {
+      pinned[i] = trial == 0 ? false : trial == 1 ? true : random() % 2;
+      (pinned[i] ? state.displacement(i) : state.force(i)) = value(random);
+    }
+    const ContactState given = state;
+    solver.solve(pinned, state);
+    const FieldVector field = solver.displacement_field(state);
+
+    FieldVector imbalance = solver.apply(field);
+    imbalance -= *load;
+    for (unsigned int i = 0; i < m; ++i) {
+      imbalance(ring.space.contact_nodes()[i].dof) += state.force(i);
+      EXPECT_NEAR(field(ring.space.contact_nodes()[i].dof), state.displacement(i), 1e-13);
+      if (pinned[i])
+        EXPECT_EQ(state.displacement(i), given.displacement(i));
+      else
+        EXPECT_EQ(state.force(i), given.force(i));
+    }
+    EXPECT_LT(imbalance.linfty_norm(), 1e-12);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Degree, Direct, testing::Values(1, 2, 3));
+
+/// u(b) of the contact-free solution of a constant f.
+double free_displacement(const Scene& scene, double f) {
+  const double a = scene.inner_radius, b = scene.outer_radius;
+  return f * (-(b * b - a * a) / 4 + b * b / 2 * std::log(b / a));
+}
+
+TEST(Direct, ContactFreeSolutionOfAConstantForceConverges) {
+  for (const int degree : {1, 2}) {
+    std::vector<double> errors;
+    for (const int cells : {4, 8, 16}) {
+      const Parameters parameters = parameters_of(
+          {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=" + std::to_string(cells),
+           "Mesh/Angular cells=6", "Cylinder/Radial force=-3", "Road/Distance=0.99"});
+      const Scene scene = make_scene(parameters);
+      const Solution solution = simulate(scene, parameters);
+      EXPECT_EQ(solution.result.patch.active_nodes, 0u);
+      EXPECT_EQ(solution.result.patch.force, 0);
+      EXPECT_FALSE(solution.result.patch.ends);
+      errors.push_back(
+          std::abs(solution.result.surface.front().displacement - free_displacement(scene, -3)));
+    }
+    // The surface value is an energy-type functional: twice the rate of the energy norm.
+    EXPECT_NEAR(std::log2(errors[0] / errors[1]), 2 * degree, 0.2);
+    EXPECT_NEAR(std::log2(errors[1] / errors[2]), 2 * degree, 0.2);
+  }
+}
+
+} // namespace

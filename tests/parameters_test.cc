@@ -1,0 +1,135 @@
+// Every value a key admits is read, everything else is refused in one message with all that helps.
+#include "errors.h"
+#include "parameters.h"
+#include "scene.h"
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+using namespace rollwave;
+
+namespace {
+
+std::string refusal_of(const std::string& assignment) {
+  try {
+    make_scene(parameters_of({assignment}));
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Parameters, AreWrittenAndReadBackUnchanged) {
+  const Parameters parameters =
+      parameters_of({"Cylinder/Outer radius=1.25", "Contact/Method=uzawa", "Contact/Rho=1.5",
+                     "Road/Contact zone=4, 5", "Study/Vary=Mesh/Degree = 1 | 2; Contact/Rho = 0.5",
+                     "Output/Files=summary"});
+  std::ostringstream text;
+  print_parameters(text, parameters.settings);
+  const std::filesystem::path file = testing::TempDir() + "/parameters_test.prm";
+  std::ofstream(file) << text.str();
+  const Parameters again = read_parameters(read_settings(file));
+  EXPECT_EQ(again.cylinder.outer_radius, 1.25);
+  EXPECT_EQ(again.contact.method, ContactMethod::uzawa);
+  EXPECT_EQ(again.contact.rho, 1.5);
+  EXPECT_EQ(again.road.contact_zone, std::pair(4., 5.));
+  ASSERT_EQ(again.study.vary.size(), 2u);
+  EXPECT_EQ(again.study.vary[0].size(), 2u);
+  EXPECT_EQ(again.study.vary[0][1].value, "2");
+  EXPECT_TRUE(again.wants(OutputFile::summary));
+  EXPECT_FALSE(again.wants(OutputFile::solution));
+}
+
+TEST(Parameters, NameTheNearestKeys) {
+  const std::string key = refusal_of("Mesh/Angular cell=3");
+  EXPECT_NE(key.find("Mesh/Angular cells"), std::string::npos) << key;
+  const std::string section = refusal_of("Rod/Distance=0.8");
+  EXPECT_NE(section.find("Road/Distance"), std::string::npos) << section;
+  const std::string elsewhere = refusal_of("Cylinder/Distance=0.8");
+  EXPECT_NE(elsewhere.find("Road/Distance"), std::string::npos) << elsewhere;
+}
+
+TEST(Parameters, MessagesTellPlaceKeyValueAndWhatIsWanted) {
+  const std::string message = refusal_of("Cylinder/Outer radius=0.25");
+  for (const char* part : {"test", "Cylinder", "Outer radius", "0.25", "inner radius 0.5"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+class RefusedSetting : public testing::TestWithParam<const char*> {};
+
+TEST_P(RefusedSetting, IsBadInput) {
+  EXPECT_THROW(make_scene(parameters_of({GetParam()})), BadInput);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , RefusedSetting,
+    testing::Values(
+        "Cylinder/Inner radius=0", "Cylinder/Inner radius=-1", "Cylinder/Inner radius=1",
+        "Cylinder/Inner radius=nan", "Cylinder/Outer radius=inf", "Cylinder/Outer radius=1e400",
+        "Cylinder/Outer radius=1,0", "Cylinder/Outer radius=one",
+        "Cylinder/Outer radius=", "Cylinder/Angular velocity=-0.1",
+        "Cylinder/Angular velocity=1.0000001", "Cylinder/Angular velocity=nan",
+        "Cylinder/Radial force=", "Cylinder/Radial force=r*(", "Cylinder/Radial force=x",
+        "Cylinder/Radial force=1/0", "Cylinder/Radial force=nan", "Cylinder/Radial force=inf",
+        "Road/Distance=0", "Road/Distance=-0.8", "Road/Distance=0.5", "Road/Distance=2",
+        "Road/Distance=nan", "Road/Contact zone=3, 5", "Road/Contact zone=4, 6.3",
+        "Road/Contact zone=5, 4", "Road/Contact zone=4, 4", "Road/Contact zone=4",
+        "Road/Contact zone=4, 5, 6", "Road/Contact zone=4, nan", "Mesh/Degree=0", "Mesh/Degree=9",
+        "Mesh/Degree=1.5", "Mesh/Radial cells=0", "Mesh/Angular cells=2", "Mesh/Angular cells=-5",
+        "Mesh/Angular cells=1e30", "Mesh/Global refinements=-1", "Contact/Method=newton",
+        "Contact/Rho=0", "Contact/Rho=-1", "Contact/Rho=inf", "Contact/Tolerance=0",
+        "Contact/Tolerance=1", "Contact/Most steps=0", "Solver/Kind=magic",
+        "Study/Vary=Mesh/Degree", "Study/Vary=Degree = 1", "Study/Vary=Study/Vary = 1",
+        "Study/Published steps=1.5", "Output/Directory=", "Output/Files=everything"));
+
+TEST(Scene, AdmitsTheCriticalSpeedAndSaysWhatLiesBeyond) {
+  // 1/0.3 as a user types it may be rounded to either side.
+  for (const char* speed : {"3.3333333333333330", "3.3333333333333335", "3.33333333333333348"})
+    EXPECT_NO_THROW(make_scene(
+        parameters_of({"Cylinder/Inner radius=0.1", "Cylinder/Outer radius=0.3",
+                       "Road/Distance=0.25", std::string("Cylinder/Angular velocity=") + speed})))
+        << speed;
+  EXPECT_NE(refusal_of("Cylinder/Angular velocity=1.01").find("no longer elliptic"),
+            std::string::npos);
+}
+
+TEST(Scene, RoadTouchesTheDeformedCylinderAtItsDistance) {
+  const auto phi = flat_road(2, 1.5);
+  for (const double z : {3.5, 4., 4.712, 5.5})
+    EXPECT_NEAR((2 + phi(z)) * std::sin(z), -1.5, 1e-14);
+}
+
+TEST(Scene, ZoneIsWhereTheRoadIsNearerThanTheOuterRadius) {
+  const Scene scene = make_scene(parameters_of(
+      {"Cylinder/Outer radius=2", "Road/Distance=1.7", "Cylinder/Angular velocity=0.1"}));
+  EXPECT_NEAR(scene.road(scene.zone_begin), 2, 1e-13);
+  EXPECT_NEAR(scene.road(scene.zone_end), 2, 1e-13);
+}
+
+TEST(Scene, ForceIsAnExpressionInRAndZ) {
+  const Scene scene = make_scene(parameters_of({"Cylinder/Radial force=r^2*cos(z) + pi"}));
+  EXPECT_NEAR(scene.force(0.7, 2.), 0.49 * std::cos(2.) + M_PI, 1e-15);
+  EXPECT_FALSE(make_scene(parameters_of({"Cylinder/Radial force=0.0"})).force);
+}
+
+TEST(Parameters, RefuseAMeshBeyondTheWantedSize) {
+  const Parameters parameters = parameters_of({"Mesh/Global refinements=10"});
+  EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
+}
+
+TEST(Parameters, RefuseAForceThatIsNotFinite) {
+  const Parameters parameters = parameters_of({"Cylinder/Radial force=1/(r - 0.6)^2 + log(z - 3)"});
+  EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
+}
+
+TEST(Parameters, RefuseAZoneBetweenTwoNodes) {
+  const Parameters parameters =
+      parameters_of({"Road/Contact zone=4.7, 4.71", "Mesh/Angular cells=20"});
+  EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
+}
+
+} // namespace

@@ -1,0 +1,208 @@
+// The program's answers against exact ones and the identities that every answer obeys.
+#include "test_scenes.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace rollwave;
+using dealii::numbers::PI;
+
+namespace {
+
+Result solve(const Parameters& parameters) {
+  return simulate(make_scene(parameters), parameters).result;
+}
+
+void expect_optimal(const Residuals& residuals) {
+  EXPECT_LT(residuals.equilibrium, 1e-11);
+  EXPECT_LT(residuals.penetration, 1e-11);
+  EXPECT_LT(residuals.negative_pressure, 1e-11);
+  EXPECT_LT(residuals.complementarity, 1e-11);
+}
+
+class PaperFigure : public testing::TestWithParam<PaperScene> {};
+
+/// A scene of the paper on a mesh of nearly 100 000 unknowns.
+void expect_exact_values(const PaperScene& paper, const std::vector<std::string>& mesh,
+                         double tolerance) {
+  const Result result = solve(with(paper.parameters(), mesh));
+  EXPECT_LE(result.mesh.dofs, 100000u);
+  EXPECT_NEAR(result.patch.force, paper.force, tolerance * paper.force);
+  EXPECT_NEAR(result.energy.value, paper.energy, tolerance * std::abs(paper.energy));
+  EXPECT_NEAR(result.patch.half_width(), paper.half_width, 2e-3 * paper.half_width);
+  EXPECT_NEAR(result.patch.peak_pressure, paper.peak_pressure, 1e-3 * paper.peak_pressure);
+  EXPECT_LE(result.history.size(), 12u);
+  expect_optimal(result.residuals);
+}
+
+TEST_P(PaperFigure, HasItsExactValuesWithQ1) {
+  expect_exact_values(GetParam(),
+                      {"Mesh/Degree=1", "Mesh/Radial cells=118", "Mesh/Angular cells=844"}, 5e-5);
+}
+
+TEST_P(PaperFigure, HasItsExactValuesWithQ2) {
+  expect_exact_values(GetParam(),
+                      {"Mesh/Degree=2", "Mesh/Radial cells=22", "Mesh/Angular cells=1112"}, 1e-5);
+}
+
+TEST_P(PaperFigure, EnergyErrorFallsByFourWithEachRefinementOfQ1) {
+  std::vector<double> errors;
+  for (const int refinements : {0, 1, 2, 3}) {
+    const Result result = solve(with(
+        GetParam().parameters(), {"Mesh/Degree=1", "Mesh/Radial cells=12", "Mesh/Angular cells=84",
+                                  "Mesh/Global refinements=" + std::to_string(refinements)}));
+    errors.push_back(std::abs(result.energy.value - GetParam().energy));
+  }
+  for (unsigned int i = 1; i < errors.size(); ++i)
+    EXPECT_NEAR(errors[i - 1] / errors[i], 4, 0.8) << "refinement " << i;
+}
+
+TEST_P(PaperFigure, EnergyNormIsTheWorkOfForceAndRoad) {
+  // a(u, u) = (f, u) - sum N_i phi_i, and J = a(u, u)/2 - (f, u)
+  const Result result = solve(GetParam().parameters());
+  double work_of_road = 0;
+  const auto& rows = result.contact_rows;
+  const Parameters parameters = GetParam().parameters();
+  const Scene scene = make_scene(parameters);
+  const Discretisation ring(scene, parameters);
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    work_of_road += ring.space.contact_nodes()[i].weight * rows[i].pressure * rows[i].road;
+  const double work_of_force = result.energy.norm_squared / 2 - result.energy.value;
+  EXPECT_NEAR(result.energy.norm_squared, work_of_force - work_of_road,
+              1e-12 * result.energy.norm_squared);
+}
+
+TEST_P(PaperFigure, LoadIsTheSlopeOfTheEnergyOverTheDistance) {
+  // E'(c) = -G holds on every mesh; the central difference is exact to second order.
+  const double step = 1e-4;
+  const auto at = [&](double distance) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "Road/Distance=" << distance;
+    return solve(with(GetParam().parameters(), {text.str(), "Mesh/Angular cells=120"}));
+  };
+  const double c = GetParam().distance;
+  const double slope = (at(c + step).energy.value - at(c - step).energy.value) / (2 * step);
+  const double load = at(c).patch.work_conjugate_load;
+  EXPECT_NEAR(slope, -load, 1e-5 * load);
+}
+
+INSTANTIATE_TEST_SUITE_P(, PaperFigure, testing::ValuesIn(paper_scenes()),
+                         [](const auto& info) { return std::to_string(info.param.figure); });
+
+TEST(ActiveSetSteps, AreFewOnFineMeshes) {
+  for (const unsigned int figure : {0, 1})
+    for (const auto& mesh : std::vector<std::vector<std::string>>{
+             {"Mesh/Degree=1", "Mesh/Radial cells=282", "Mesh/Angular cells=3544"},
+             {"Mesh/Degree=2", "Mesh/Radial cells=141", "Mesh/Angular cells=1772"}}) {
+      const Result result = solve(with(paper_scenes()[figure].parameters(), mesh));
+      EXPECT_LE(result.history.size(), 12u) << result.mesh.dofs << " unknowns";
+      expect_optimal(result.residuals);
+    }
+}
+
+TEST(ActiveSetSteps, AreFewOnStretchedCells) {
+  // Long in r, the cells make the surface answer like a membrane, where signs alone would move each
+  // end by one node in a step; long in z, they leave a handful of nodes.
+  for (const PaperScene& paper : paper_scenes())
+    for (const auto& mesh : std::vector<std::vector<std::string>>{
+             {"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=3000"},
+             {"Mesh/Degree=1", "Mesh/Radial cells=8", "Mesh/Angular cells=6000"},
+             {"Mesh/Degree=2", "Mesh/Radial cells=2", "Mesh/Angular cells=2000"},
+             {"Mesh/Degree=3", "Mesh/Radial cells=2", "Mesh/Angular cells=600"},
+             {"Mesh/Degree=1", "Mesh/Radial cells=400", "Mesh/Angular cells=40"}}) {
+      const Result result = solve(with(paper.parameters(), mesh));
+      EXPECT_LE(result.history.size(), 12u) << "figure " << paper.figure << ", " << mesh.back();
+      EXPECT_TRUE(result.remark.empty()) << result.remark;
+      EXPECT_LT(result.residuals.penetration, 1e-11);
+      EXPECT_LT(result.residuals.negative_pressure, 1e-11);
+    }
+}
+
+class Symmetry : public testing::TestWithParam<int> {
+protected:
+  Parameters parameters = parameters_of({"Mesh/Degree=" + std::to_string(GetParam()),
+                                         "Mesh/Radial cells=8", "Mesh/Angular cells=100"});
+};
+
+TEST_P(Symmetry, RotationByWholeCellsTurnsTheSolution) {
+  const Scene scene = make_scene(parameters);
+  const Result original = simulate(scene, parameters).result;
+  // By 25 cells to the side, and by 50 onto the seam.
+  for (const int cells : {1, 25, 50}) {
+    const double turn = 2 * PI * cells / 100;
+    Scene turned = make_scene(parameters);
+    turned.zone_begin -= turn;
+    turned.zone_end -= turn;
+    turned.road = [&scene, turn](double z) { return scene.road(z + turn); };
+    const Result result = simulate(turned, parameters).result;
+    EXPECT_EQ(result.patch.active_nodes, original.patch.active_nodes);
+    EXPECT_NEAR(result.patch.force, original.patch.force, 1e-12);
+    EXPECT_NEAR(result.energy.value, original.energy.value, 1e-13);
+    ASSERT_EQ(result.contact_rows.size(), original.contact_rows.size());
+    for (unsigned int i = 0; i < result.contact_rows.size(); ++i)
+      EXPECT_NEAR(result.contact_rows[i].pressure, original.contact_rows[i].pressure, 1e-11);
+  }
+}
+
+TEST_P(Symmetry, MirroringMirrorsTheSolution) {
+  const Result original = solve(
+      with(parameters, {"Road/Contact zone=4.1, 5.6", "Cylinder/Radial force=r + sin(z + 1)"}));
+  const Result mirror =
+      solve(with(parameters, {"Road/Contact zone=3.82477796076938, 5.32477796076938",
+                              "Cylinder/Radial force=r + sin(3*pi - z + 1)"}));
+  EXPECT_GT(original.patch.active_nodes, 0u);
+  EXPECT_EQ(mirror.patch.active_nodes, original.patch.active_nodes);
+  EXPECT_NEAR(mirror.patch.force, original.patch.force, 1e-12);
+  EXPECT_NEAR(mirror.patch.ends->first, 3 * PI - original.patch.ends->second, 1e-10);
+  const unsigned int n = original.contact_rows.size();
+  ASSERT_EQ(mirror.contact_rows.size(), n);
+  for (unsigned int i = 0; i < n; ++i)
+    EXPECT_NEAR(mirror.contact_rows[i].pressure, original.contact_rows[n - 1 - i].pressure, 1e-11);
+}
+
+TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
+  for (const ContactMethod method : {ContactMethod::active_set, ContactMethod::uzawa})
+    for (const int power : {-40, 1, 20}) {
+      Parameters own = parameters;
+      own.contact.method = method;
+      Scene scene = make_scene(own);
+      scene.force = [](double r, double z) { return r * std::cos(z); };
+      const Result original = simulate(scene, own).result;
+      const auto road = scene.road;
+      scene.road = [road, power](double z) { return std::ldexp(road(z), power); };
+      scene.force = [power](double r, double z) { return std::ldexp(r * std::cos(z), power); };
+      const Result scaled = simulate(scene, own).result;
+      EXPECT_EQ(scaled.history.size(), original.history.size());
+      EXPECT_EQ(scaled.patch.force, std::ldexp(original.patch.force, power));
+      EXPECT_EQ(scaled.energy.value, std::ldexp(original.energy.value, 2 * power));
+      for (unsigned int i = 0; i < scaled.contact_rows.size(); ++i) {
+        EXPECT_EQ(scaled.contact_rows[i].pressure,
+                  std::ldexp(original.contact_rows[i].pressure, power));
+        EXPECT_EQ(scaled.contact_rows[i].displacement,
+                  std::ldexp(original.contact_rows[i].displacement, power));
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Degree, Symmetry, testing::Values(1, 2));
+
+TEST(Work, IsLeftOutWhereTheSceneDoesNotNeedIt) {
+  const Result plain = solve(parameters_of({}));
+  EXPECT_EQ(plain.work.load_assemblies, 0u);
+  EXPECT_EQ(plain.work.forward_substitutions, 0u);
+  EXPECT_EQ(plain.work.factorisations, 1u);
+  EXPECT_EQ(plain.work.back_substitutions, 1u);
+  const Result loaded = solve(parameters_of({"Cylinder/Radial force=1"}));
+  EXPECT_EQ(loaded.work.load_assemblies, 1u);
+  EXPECT_EQ(loaded.work.forward_substitutions, 1u);
+  EXPECT_EQ(loaded.work.factorisations, 1u);
+  const Result free = solve(parameters_of({"Road/Distance=1.01"}));
+  EXPECT_EQ(free.history.size(), 1u);
+  EXPECT_EQ(free.energy.value, 0);
+}
+
+} // namespace

@@ -1,0 +1,65 @@
+// The reader of parameter files keeps the place of every entry and refuses what it cannot read.
+#include "errors.h"
+#include "settings.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+using namespace rollwave;
+
+namespace {
+
+std::vector<Setting> read_text(const std::string& text) {
+  const std::filesystem::path file = testing::TempDir() + "/settings_test.prm";
+  std::ofstream(file) << text;
+  return read_settings(file);
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    read_text(text);
+  } catch (const BadInput& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Settings, KeepSectionKeyValueAndLine) {
+  const auto settings = read_text("# a scene\n\nsubsection Mesh\n  set Degree = 2 # Q2\nend\r\n"
+                                  "subsection Study\n set Vary = A/B = 1 | \\\n   2\nend\n");
+  ASSERT_EQ(settings.size(), 2u);
+  EXPECT_EQ(settings[0].path(), "Mesh/Degree");
+  EXPECT_EQ(settings[0].value, "2");
+  EXPECT_NE(settings[0].origin.find("line 4"), std::string::npos);
+  EXPECT_EQ(settings[1].path(), "Study/Vary");
+  EXPECT_EQ(settings[1].value, "A/B = 1 | 2");
+}
+
+TEST(Settings, RefuseWhatIsNotOfTheGrammar) {
+  EXPECT_NE(refusal_of("subsection Mesh\nDegree = 2\nend\n").find("line 2"), std::string::npos);
+  EXPECT_NE(refusal_of("subsection Mesh\nset Degree 2\nend\n").find("line 2"), std::string::npos);
+  EXPECT_NE(refusal_of("end\n").find("without a subsection"), std::string::npos);
+  EXPECT_NE(refusal_of("subsection Mesh\n").find("not closed"), std::string::npos);
+  EXPECT_NE(refusal_of("subsection A\nsubsection B\nend\nend\n").find("inside"), std::string::npos);
+  EXPECT_NE(refusal_of("subsection\nend\n").find("name"), std::string::npos);
+  EXPECT_NE(refusal_of("subsection A\nset B = 1\nset B = 2\nend\n").find("second time"),
+            std::string::npos);
+}
+
+TEST(Settings, RefuseFilesThatAreNotThere) {
+  EXPECT_THROW(read_settings("/no/such/file.prm"), BadInput);
+  EXPECT_THROW(read_settings(testing::TempDir()), BadInput);
+}
+
+TEST(Settings, ReadAssignments) {
+  const Setting setting = parse_setting("Contact/Most steps = 7", "--set");
+  EXPECT_EQ(setting.section, "Contact");
+  EXPECT_EQ(setting.key, "Most steps");
+  EXPECT_EQ(setting.value, "7");
+  EXPECT_THROW(parse_setting("Contact", "--set"), BadInput);
+  EXPECT_THROW(parse_setting("Most steps=7", "--set"), BadInput);
+  EXPECT_THROW(parse_setting("a=b/c", "--set"), BadInput);
+}
+
+} // namespace

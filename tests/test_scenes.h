@@ -1,0 +1,50 @@
+#ifndef ROLLWAVE_TEST_SCENES_H
+#define ROLLWAVE_TEST_SCENES_H
+
+#include "direct_solver.h"
+#include "simulation.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// Parameters from assignments like "Mesh/Degree=1".
+Parameters parameters_of(const std::vector<std::string>& assignments);
+
+/// @p parameters with further assignments.
+Parameters with(Parameters parameters, const std::vector<std::string>& assignments);
+
+/// A scene of the paper (M2AN 25 (1991), section 8) with a = 0.5 and b = 1, and its exact answer
+/// from a semi-analytic solution.
+struct PaperScene {
+  int figure;
+  double distance;
+  double angular_velocity;
+  double force_density;
+  double half_width;
+  double force;
+  double energy;
+  double peak_pressure;
+
+  Parameters parameters() const;
+};
+
+const std::vector<PaperScene>& paper_scenes();
+
+/// Mesh and space of @p parameters for @p scene, without solving anything.
+struct Discretisation {
+  Discretisation(const Scene& scene, const Parameters& parameters);
+
+  std::unique_ptr<dealii::Triangulation<2>> triangulation;
+  RingSpace space;
+};
+
+/// A scene that touches a constant obstacle phi around the whole circle.
+Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road);
+
+} // namespace rollwave
+
+#endif
