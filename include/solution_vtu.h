@@ -11,7 +11,8 @@ namespace rollwave {
  * Writes the deformed cylinder as VTU, in x = (r + u) cos z, y = (r + u) sin z, where the road is
  * the line y = -c. Point fields: `displacement` u, a length, and `pressure` lambda on the surface,
  * zero off the contact zone and not a number inside of the cylinder, where there is none. Elements
- * of degree p become VTK's Lagrange cells with (p + 1)^2 nodes.
+ * of degree p become VTK's Lagrange cells with (p + 1)^2 nodes. A failure to write is left in the
+ * state of the stream.
  */
 void write_solution_vtu(std::ostream& out, const Solution& solution);
 

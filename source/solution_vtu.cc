@@ -91,7 +91,13 @@ void write_solution_vtu(std::ostream& out, const Solution& solution) {
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;
   flags.compression_level = decltype(flags.compression_level)::best_speed;
   cylinder.set_flags(flags);
-  cylinder.write_vtu(out);
+  try {
+    cylinder.write_vtu(out);
+  } catch (const StandardExceptions::ExcIO&) {
+    // The stream remembers its failure for its owner, who knows the file's name.
+    if (!out.fail())
+      throw;
+  }
 }
 
 } // namespace rollwave

@@ -1,0 +1,56 @@
+#include "stiffness_triplets.h"
+
+#include "assembly.h"
+#include "scene.h"
+
+namespace rollwave {
+
+using namespace dealii;
+
+std::vector<int> number_unknowns(const RingSpace& space) {
+  std::vector<int> unknown_of_dof(space.dof_handler().n_dofs(), 0);
+  for (const auto& line : space.constraints().get_lines())
+    unknown_of_dof[line.index] = -1;
+  int contact_unknown = space.n_unknowns() - space.contact_nodes().size();
+  for (const SurfaceNode& node : space.contact_nodes())
+    unknown_of_dof[node.dof] = contact_unknown++;
+
+  const int first_contact_unknown = space.n_unknowns() - space.contact_nodes().size();
+  int unknown = 0;
+  for (int& entry : unknown_of_dof)
+    if (entry >= 0 && entry < first_contact_unknown)
+      entry = unknown++;
+  return unknown_of_dof;
+}
+
+LowerTriplets assemble_triplets(const RingSpace& space, const Scene& scene,
+                                const std::vector<int>& unknown_of_dof) {
+  LowerTriplets triplets;
+  const unsigned int dofs_per_cell = space.dof_handler().get_fe().n_dofs_per_cell();
+  const std::size_t expected = space.dof_handler().get_triangulation().n_active_cells() *
+                               (dofs_per_cell * (dofs_per_cell + 1) / 2);
+  triplets.rows.reserve(expected);
+  triplets.columns.reserve(expected);
+  triplets.values.reserve(expected);
+
+  std::vector<std::vector<std::pair<int, double>>> expansion(dofs_per_cell);
+  assemble_stiffness(space, scene, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+    for (unsigned int i = 0; i < dofs_per_cell; ++i) {
+      expansion[i].clear();
+      if (unknown_of_dof[dofs[i]] >= 0)
+        expansion[i].emplace_back(unknown_of_dof[dofs[i]], 1.);
+      else
+        for (const auto& [dof, weight] : *space.constraints().get_constraint_entries(dofs[i]))
+          expansion[i].emplace_back(unknown_of_dof[dof], weight);
+    }
+    for (unsigned int i = 0; i < dofs_per_cell; ++i)
+      for (unsigned int j = 0; j < dofs_per_cell; ++j)
+        for (const auto& [row, row_weight] : expansion[i])
+          for (const auto& [column, column_weight] : expansion[j])
+            if (row >= column)
+              triplets.add(row, column, row_weight * column_weight * cell_matrix(i, j));
+  });
+  return triplets;
+}
+
+} // namespace rollwave

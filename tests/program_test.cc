@@ -1,0 +1,265 @@
+// The program as a user calls it: files, messages and exit codes.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Outcome {
+  int exit_code;
+  std::string text; ///< both streams
+};
+
+/// Runs @p command in a shell, where $rollwave is the program.
+Outcome shell(const std::string& command) {
+  setenv("rollwave", ROLLWAVE_EXECUTABLE, 1);
+  FILE* const pipe = popen(("( " + command + " ) 2>&1").c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer;
+  std::size_t count = 0;
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0)
+    outcome.text.append(buffer.data(), count);
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+/// A directory of its own, empty, for each test.
+class Program : public testing::Test {
+protected:
+  Program()
+      : directory(fs::path(testing::TempDir()) /
+                  (std::string("rollwave_") +
+                   testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::remove_all(directory);
+    fs::create_directories(directory);
+    std::ofstream(directory / "scene.prm")
+        << "subsection Mesh\n  set Radial cells = 4\n  set Angular cells = 60\nend\n"
+           "subsection Output\n  set Directory = "
+        << (directory / "out").string() << "\nend\n";
+    scene = "'" + (directory / "scene.prm").string() + "'";
+  }
+
+  ~Program() override { fs::remove_all(directory); }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(directory / "out" / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+  bool has(const std::string& name) const { return fs::exists(directory / "out" / name); }
+
+  void expect_no_partial_files() const {
+    if (!fs::exists(directory / "out"))
+      return;
+    for (const auto& entry : fs::directory_iterator(directory / "out"))
+      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+
+  const fs::path directory;
+  std::string scene;
+};
+
+TEST_F(Program, WritesEveryFileOfTheContract) {
+  const Outcome outcome = shell("$rollwave " + scene);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* name :
+       {"summary.json", "contact.csv", "parameters.prm", "solution.vtu", "scene.svg"}) {
+    EXPECT_TRUE(has(name)) << name;
+    EXPECT_NE(outcome.text.find(std::string("out/") + name), std::string::npos) << name;
+  }
+  expect_no_partial_files();
+
+  const auto json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_EQ(json["scene"]["road_distance"], 0.8);
+  EXPECT_EQ(json["mesh"]["dofs"], 4 * 2 * 60 * 2);
+  EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
+  EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-12);
+  EXPECT_EQ(json["work"]["factorisations"], 1);
+  unsigned long bytes = 0;
+  for (const char* name : {"contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
+    bytes += fs::file_size(directory / "out" / name);
+  EXPECT_EQ(json["work"]["bytes_written"], bytes);
+
+  std::istringstream rows(read("contact.csv"));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "z,u,phi,gap,pressure");
+  unsigned int n_rows = 0;
+  while (std::getline(rows, row)) {
+    double z, u, phi, gap, pressure;
+    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf", &z, &u, &phi, &gap, &pressure), 5);
+    EXPECT_NEAR(gap, phi - u, 1e-15);
+    EXPECT_EQ(gap * pressure, 0);
+    ++n_rows;
+  }
+  EXPECT_EQ(json["mesh"]["contact_nodes"], n_rows);
+}
+
+TEST_F(Program, ReproducesARunFromItsParameters) {
+  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Cylinder/Radial force=r*cos(z)'").exit_code, 0);
+  const std::string first = read("contact.csv");
+  const fs::path copy = directory / "copy.prm";
+  fs::copy_file(directory / "out" / "parameters.prm", copy);
+  ASSERT_EQ(shell("$rollwave '" + copy.string() + "'").exit_code, 0);
+  EXPECT_EQ(read("contact.csv"), first);
+}
+
+TEST_F(Program, WritesOnlyWhatIsAskedFor) {
+  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Output/Files=summary'").exit_code, 0);
+  EXPECT_TRUE(has("summary.json"));
+  for (const char* name : {"contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
+    EXPECT_FALSE(has(name)) << name;
+}
+
+TEST_F(Program, OverridesTheFile) {
+  const fs::path other = directory / "other";
+  ASSERT_EQ(shell("$rollwave " + scene + " --output '" + other.string() +
+                  "' --set 'Mesh/Degree = 1' --set 'Road/Distance=0.9'")
+                .exit_code,
+            0);
+  EXPECT_FALSE(has("summary.json"));
+  std::ifstream file(other / "summary.json");
+  const auto json = nlohmann::json::parse(file);
+  EXPECT_EQ(json["mesh"]["degree"], 1);
+  EXPECT_EQ(json["scene"]["road_distance"], 0.9);
+}
+
+TEST_F(Program, PrintsHelpVersionAndParameters) {
+  EXPECT_NE(shell("$rollwave --help").text.find("Usage"), std::string::npos);
+  EXPECT_EQ(shell("$rollwave --help").exit_code, 0);
+  EXPECT_NE(shell("$rollwave --version").text.find("deal.II"), std::string::npos);
+  // The parameters it prints are a file that it accepts.
+  const std::string defaults = "'" + (directory / "defaults.prm").string() + "'";
+  ASSERT_EQ(shell("$rollwave --parameters > " + defaults).exit_code, 0);
+  EXPECT_EQ(shell("$rollwave " + defaults + " --set Output/Files= --output '" +
+                  (directory / "out").string() + "'")
+                .exit_code,
+            0);
+}
+
+TEST_F(Program, RefusesBadInputInOneLineBeforeAnyWork) {
+  const std::vector<std::string> calls = {
+      "$rollwave",
+      "$rollwave --nonsense",
+      "$rollwave no_such_file.prm",
+      "$rollwave " + scene + " " + scene,
+      "$rollwave " + scene + " --set",
+      "$rollwave " + scene + " --set Mesh",
+      "$rollwave " + scene + " --set Mesh/Degre=2",
+      "$rollwave " + scene + " --set Mesh/Degree=two",
+      "$rollwave " + scene + " --set 'Cylinder/Angular velocity=1.5'",
+      "$rollwave " + scene + " --set 'Cylinder/Radial force=sin(q)'",
+      "$rollwave " + scene + " --output /dev/null/out",
+      "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.8 | 0.4'",
+      "$rollwave " + scene +
+          " --set 'Study/Vary=Road/Distance = 0.8' --set 'Study/Published "
+          "steps=1, 2'"};
+  for (const std::string& call : calls) {
+    const Outcome outcome = shell(call);
+    EXPECT_EQ(outcome.exit_code, 1) << call << '\n' << outcome.text;
+    const auto message = outcome.text.find("rollwave: ");
+    ASSERT_NE(message, std::string::npos) << call << '\n' << outcome.text;
+    EXPECT_EQ(outcome.text.find("rollwave: ", message + 1), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find("Contact steps"), std::string::npos) << outcome.text;
+    EXPECT_FALSE(has("summary.json"));
+  }
+}
+
+TEST_F(Program, NamesTheLineOfAMistypedKey) {
+  std::ofstream(directory / "scene.prm") << "subsection Road\n\n  set Distence = 0.8\nend\n";
+  const Outcome outcome = shell("$rollwave " + scene);
+  EXPECT_EQ(outcome.exit_code, 1);
+  for (const char* part : {"scene.prm, line 3", "Distence", "Road/Distance"})
+    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+}
+
+TEST_F(Program, SaysWhatWasReachedWhenItCannotSolve) {
+  const Outcome outcome =
+      shell("$rollwave " + scene + " --set Contact/Method=uzawa --set 'Contact/Most steps=3'");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("Contact/Most steps"), std::string::npos) << outcome.text;
+  EXPECT_FALSE(has("summary.json"));
+}
+
+TEST_F(Program, LeavesNoPartialFileOnAFullDisk) {
+  // No file may grow beyond 8 kB: the VTU does not fit, and what fitted before is complete.
+  const Outcome outcome = shell("ulimit -f 8; $rollwave " + scene);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_NE(outcome.text.find("could not be written"), std::string::npos) << outcome.text;
+  EXPECT_FALSE(has("solution.vtu"));
+  EXPECT_FALSE(has("summary.json"));
+  expect_no_partial_files();
+}
+
+TEST_F(Program, LeavesTheOldFileWhenTheNewOneCannotBeWritten) {
+  ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0);
+  const std::string before = read("solution.vtu");
+  ASSERT_EQ(shell("ulimit -f 8; $rollwave " + scene + " --set Mesh/Degree=1").exit_code, 3);
+  EXPECT_EQ(read("solution.vtu"), before);
+}
+
+TEST_F(Program, RunsAStudy) {
+  const Outcome outcome = shell("$rollwave " + scene +
+                                " --set 'Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8 "
+                                "| 1.1' --set 'Study/Published steps=4, -, -, -, -, 1'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  for (const char* name : {"study.csv", "study.txt", "study.svg", "parameters.prm"})
+    EXPECT_TRUE(has(name)) << name;
+  EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
+  std::istringstream rows(read("study.csv"));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row.find("Mesh/Degree,Road/Distance,solved"), 0u);
+  for (const char* start : {"1,0.7,1", "1,0.8,1", "1,1.1,1", "2,0.7,1", "2,0.8,1", "2,1.1,1"}) {
+    std::getline(rows, row);
+    EXPECT_EQ(row.find(start), 0u) << row;
+  }
+}
+
+TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {
+  const Outcome outcome = shell(
+      "$rollwave " + scene + " --set Contact/Method=uzawa --set 'Study/Vary=Contact/Rho = 1 | 50'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("diverges"), std::string::npos);
+  EXPECT_NE(read("study.csv").find("\n50,0,"), std::string::npos);
+}
+
+class ShippedFile : public Program, public testing::WithParamInterface<std::string> {};
+
+TEST_P(ShippedFile, Runs) {
+  const Outcome outcome = shell("$rollwave '" ROLLWAVE_PRM_DIRECTORY "/" + GetParam() +
+                                "' --output '" + (directory / "out").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(has("summary.json") || has("study.csv"));
+}
+
+std::vector<std::string> shipped_files() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(ROLLWAVE_PRM_DIRECTORY))
+    if (entry.path().extension() == ".prm")
+      names.push_back(fs::relative(entry.path(), ROLLWAVE_PRM_DIRECTORY).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(, ShippedFile, testing::ValuesIn(shipped_files()), [](const auto& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+} // namespace
