@@ -1,0 +1,86 @@
+#ifndef ROLLWAVE_EXACT_SOLUTION_H
+#define ROLLWAVE_EXACT_SOLUTION_H
+
+#include "contact_pressure_series.h"
+#include "radial_modes.h"
+
+namespace rollwave {
+
+/// The scenes that have a semi-analytic answer: a flat road, a constant force density and a contact
+/// that ends freely inside of the zone.
+struct ExactScene {
+  double inner_radius;
+  double outer_radius;
+  double angular_velocity;
+  double road_distance;
+  double force_density;
+};
+
+/**
+ * The semi-analytic solution of a contact problem, without any mesh. With x = z - 3 pi/2, the
+ * pressure on |x| < w as a ContactPressureSeries of even terms, and the compliances c_k = 1/sigma_k
+ * of RadialModes,
+ *
+ *     u(b, x) = u_f(b) - sum_k c_k lambda_k e^(i k x),   lambda_k = (1/2 pi) int lambda e^(-i k x)
+ * dx, u_f(r)  = f ( -(r^2 - a^2)/4 + (b^2/2) ln(r/a) ),
+ *
+ * has to equal phi on |x| < w. This is tested by the n functions of the series itself, which gives
+ * a symmetric positive definite system for its coefficients, and by the next one, which gives the
+ * half-width w: a wrong w would need a pressure that is singular at the ends. Sums over k run
+ * exactly up to some k, then as integrals, then as the mean of their asymptotic form.
+ */
+struct ExactSolution {
+  double half_width;   ///< w; 0 without contact
+  double force;        ///< F = b int lambda dz
+  double energy;       ///< J(u)
+  double norm_squared; ///< a(u, u)
+  double peak_pressure;
+
+  /// What is believed to have been reached, relative: numbers are limits of the growing series.
+  double force_accuracy;
+  double energy_accuracy;
+  double half_width_accuracy;
+
+  /// Exponent 1 - s of the pressure at the ends that the series was given.
+  double end_exponent;
+
+  /// False near the critical speed, where the ends obey one law outside and another inside of a
+  /// distance that the series does not resolve: F and J are good then, the pressure at the ends is
+  /// not.
+  bool ends_resolved;
+
+  /// lambda(z), of the longest series; identically zero without contact.
+  ContactPressureSeries pressure;
+};
+
+/// @throws NotSolved when the series does not settle.
+ExactSolution solve_exactly(const ExactScene& scene);
+
+/// u_f(r), the displacement under a constant force density @p f without contact.
+double contact_free_displacement(const ExactScene& scene, double r);
+
+/// The exact u and its derivatives, as a sum over modes.
+class ExactField {
+public:
+  /// Sums the modes k < @p n_modes: on the surface the rest of u is of order n_modes^-(1 + s),
+  /// inside modes fade like (r/b)^k or faster than any power at the critical speed.
+  ExactField(const ExactScene& scene, const ExactSolution& solution, unsigned int n_modes);
+
+  struct Value {
+    double displacement;
+    double radial_derivative;
+    double angular_derivative;
+  };
+
+  /// At a <= r <= b and any angle.
+  Value operator()(double r, double z) const;
+
+private:
+  ExactScene scene;
+  RadialModes modes;
+  std::vector<double> amplitudes; ///< of cos(k x) in u(b, .)
+};
+
+} // namespace rollwave
+
+#endif
