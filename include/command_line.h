@@ -13,6 +13,7 @@ struct CommandLine {
   enum class Action { run, help, version, parameters };
   Action action = Action::run;
   std::filesystem::path file;    ///< the parameter file to run
+  bool verify = false;           ///< compare with the exact solution
   std::vector<Setting> settings; ///< of --set and --output, in their order
 };
 

@@ -25,6 +25,9 @@ public:
 
   double operator()(double z) const;
 
+  /// lambda(z) / (1 - t^2)^(nu - 1/2), a polynomial.
+  double over_weight(double z) const;
+
   /// int lambda cos(k (z - m)) dz, from the even n.
   double cosine_integral(double k) const;
 
@@ -33,6 +36,7 @@ public:
 
   double middle() const { return m; }
   double half_width() const { return w; }
+  double order() const { return nu; }
 
 private:
   double m, w, nu;

@@ -6,14 +6,15 @@
 
 namespace rollwave {
 
-/// The scenes that have a semi-analytic answer: a flat road, a constant force density and a contact
-/// that ends freely inside of the zone.
+/// The scenes that have a semi-analytic answer: a flat road, a constant force density and a zone of
+/// possible contact |z - 3 pi/2| <= zone_half_width, which may cut the contact short.
 struct ExactScene {
   double inner_radius;
   double outer_radius;
   double angular_velocity;
   double road_distance;
   double force_density;
+  double zone_half_width = 1.5707963267948966;
 };
 
 /**
@@ -26,8 +27,9 @@ struct ExactScene {
  *
  * has to equal phi on |x| < w. This is tested by the n functions of the series itself, which gives
  * a symmetric positive definite system for its coefficients, and by the next one, which gives the
- * half-width w: a wrong w would need a pressure that is singular at the ends. Sums over k run
- * exactly up to some k, then as integrals, then as the mean of their asymptotic form.
+ * half-width w: a wrong w would need a pressure that is singular at the ends. Where the zone cuts
+ * the contact short, w is the zone's and the pressure is singular, with the exponent -s. Sums over
+ * k run exactly up to some k, then as integrals, then as the mean of their asymptotic form.
  */
 struct ExactSolution {
   double half_width;   ///< w; 0 without contact
@@ -41,7 +43,7 @@ struct ExactSolution {
   double energy_accuracy;
   double half_width_accuracy;
 
-  /// Exponent 1 - s of the pressure at the ends that the series was given.
+  /// Exponent of the pressure at the ends: 1 - s, or -s where the zone cuts the contact short.
   double end_exponent;
 
   /// False near the critical speed, where the ends obey one law outside and another inside of a

@@ -75,6 +75,7 @@ struct Parameters {
     /// One list of settings for each varied key; the study runs every combination.
     std::vector<std::vector<Setting>> vary;
     std::vector<std::optional<unsigned int>> published_steps;
+    bool true_errors = false;
   } study;
 
   struct {

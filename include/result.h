@@ -5,6 +5,7 @@
 #include "parameters.h"
 #include "work.h"
 
+#include <optional>
 #include <vector>
 
 namespace rollwave {
@@ -31,6 +32,16 @@ struct Residuals {
   double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
 };
 
+/// Errors against the exact solution.
+struct TrueErrors {
+  double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
+  double relative_energy_norm; ///< over that of u
+  double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
+  double force;                ///< |F - F_h|
+  double energy;               ///< |J(u) - J(u_h)|
+  double half_width;           ///< |w - w_h|
+};
+
 /// The numbers of one contact node; gap = phi - u.
 struct ContactRow {
   double angle;
@@ -52,6 +63,7 @@ struct Result {
   ContactPatch patch;
   Energy energy;
   Residuals residuals;
+  std::optional<TrueErrors> errors; ///< where a comparison with the exact solution was asked for
   std::vector<ContactStep> history;
   double rho; ///< Uzawa's step length; 0 for the active set method
   std::string remark;

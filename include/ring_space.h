@@ -27,6 +27,13 @@ struct SurfaceNode {
   double weight;
 };
 
+/// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.
+struct SurfaceFace {
+  double begin; ///< angle, in the range of SurfaceNode::angle
+  double end;
+  std::vector<dealii::types::global_dof_index> dofs;
+};
+
 /**
  * Continuous elements of one degree in (r, z): degrees of freedom, constraints (hanging nodes,
  * period, u = 0 on the hub) and the nodes on the surface.
@@ -42,11 +49,17 @@ public:
   /// Cells are rectangles in (r, z).
   const dealii::MappingCartesian<2>& mapping() const { return cartesian; }
 
+  /// b, a length.
+  double outer_radius() const { return radius; }
+
   /// Unknowns: degrees of freedom without those that constraints tie to others.
   unsigned int n_unknowns() const;
 
   /// All nodes on r = b by increasing angle.
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
+
+  /// All edges on r = b, in no order.
+  const std::vector<SurfaceFace>& surface_faces() const { return faces; }
 
   /// The nodes in [z0, z1], a stretch of surface_nodes().
   const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
@@ -57,12 +70,14 @@ public:
 private:
   void find_surface_nodes(const Scene& scene);
 
+  double radius;
   dealii::FE_Q<2> element;
   dealii::MappingCartesian<2> cartesian;
   dealii::DoFHandler<2> handler;
   dealii::AffineConstraints<double> affine_constraints;
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceNode> contact;
+  std::vector<SurfaceFace> faces;
 };
 
 } // namespace rollwave

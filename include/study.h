@@ -17,6 +17,7 @@ struct StudyRun {
   std::optional<Result> result; ///< nullopt when the scene was not solved
   std::string failure;          ///< why it was not
   std::optional<unsigned int> published_steps;
+  double peak_memory_mib = 0; ///< of the process, up to the end of this run
 };
 
 /**

@@ -8,12 +8,13 @@ std::string usage() {
   return R"(Rollwave computes the steady rolling of an elastic cylinder on a flat road.
 
 Usage:
-  rollwave FILE.prm [--output DIR] [--set "Section/Key=value"]...
+  rollwave [--verify] FILE.prm [--output DIR] [--set "Section/Key=value"]...
   rollwave --parameters   print a complete commented parameter file
   rollwave --help         print this text
   rollwave --version      print the versions of Rollwave and deal.II
 
 Options:
+  --verify                    compare the results with the exact solution of the scene
   --output DIR                the directory for the files, instead of the file's
   --set "Section/Key=value"   overrides the file; may be repeated
 
@@ -36,6 +37,8 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       line.action = CommandLine::Action::version;
     else if (*argument == "--parameters")
       line.action = CommandLine::Action::parameters;
+    else if (*argument == "--verify")
+      line.verify = true;
     else if (*argument == "--output")
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
     else if (*argument == "--set")

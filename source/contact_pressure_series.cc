@@ -85,15 +85,17 @@ ContactPressureSeries::ContactPressureSeries(double middle, double half_width, d
                                              const std::vector<double>& coefficients)
     : m(middle), w(half_width), nu(nu), a(coefficients) {}
 
-double ContactPressureSeries::operator()(double z) const {
-  const double t = (z - m) / w;
-  if (!(std::abs(t) < 1))
-    return 0;
-  const std::vector<double> polynomials = gegenbauer_polynomials(nu, a.size(), t);
+double ContactPressureSeries::over_weight(double z) const {
+  const std::vector<double> polynomials = gegenbauer_polynomials(nu, a.size(), (z - m) / w);
   double sum = 0;
   for (unsigned int n = 0; n < a.size(); ++n)
     sum += a[n] * polynomials[n];
-  return sum * std::pow((1 - t) * (1 + t), nu - 0.5);
+  return sum;
+}
+
+double ContactPressureSeries::operator()(double z) const {
+  const double t = (z - m) / w;
+  return std::abs(t) < 1 ? over_weight(z) * std::pow((1 - t) * (1 + t), nu - 0.5) : 0;
 }
 
 double ContactPressureSeries::cosine_integral(double k) const {

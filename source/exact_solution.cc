@@ -106,7 +106,8 @@ class Collocation {
 public:
   Collocation(const ExactScene& scene, const RadialModes& modes, double end_exponent,
               unsigned int n_terms)
-      : scene(scene), modes(modes), nu(end_exponent + 0.5), s(1 - end_exponent), n(n_terms),
+      : scene(scene), modes(modes), nu(end_exponent + 0.5),
+        s(end_exponent < 0 ? -end_exponent : 1 - end_exponent), n(n_terms),
         rule(gauss_gegenbauer(nu, 2 * n_terms + 30)), polynomials(rule.points.size(), n_terms + 1) {
     for (unsigned int q = 0; q < rule.points.size(); ++q) {
       const std::vector<double> all = gegenbauer_polynomials(nu, 2 * n + 1, rule.points[q]);
@@ -261,6 +262,8 @@ ExactSolution describe(const ExactScene& scene, const Collocation& collocation, 
   const double work_of_f = work_of_f_alone - contact_free_displacement(scene, b) * solution.force;
   solution.norm_squared = work_of_f - pressure_times_road;
   solution.energy = solution.norm_squared / 2 - work_of_f;
+  if (collocation.nu < 0.5)
+    solution.peak_pressure = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 400; ++i)
     solution.peak_pressure =
         std::max(solution.peak_pressure, solution.pressure(3 * numbers::PI / 2 + w * i / 400.));
@@ -294,9 +297,12 @@ ExactSolution solve_with_ends(const ExactScene& scene, const RadialModes& modes,
   std::vector<ExactSolution> sequence;
   for (const unsigned int n_terms : {12, 24, 48}) {
     const Collocation collocation(scene, modes, end_exponent, n_terms);
-    const double w = find_half_width(collocation, guess, margin, crossing);
-    margin = sequence.empty() ? 0.02 * crossing : std::abs(w - guess) + 1e-8 * w;
-    guess = w;
+    double w = scene.zone_half_width;
+    if (end_exponent > 0) {
+      w = find_half_width(collocation, guess, margin, crossing);
+      margin = sequence.empty() ? 0.02 * crossing : std::abs(w - guess) + 1e-8 * w;
+      guess = w;
+    }
     sequence.push_back(describe(scene, collocation, w));
   }
   const auto limit = [&](auto member) {
@@ -313,7 +319,8 @@ ExactSolution solve_with_ends(const ExactScene& scene, const RadialModes& modes,
   solution.half_width = half_width.value;
   solution.half_width_accuracy = half_width.relative_accuracy();
   solution.norm_squared = limit(&ExactSolution::norm_squared).value;
-  solution.peak_pressure = limit(&ExactSolution::peak_pressure).value;
+  if (end_exponent > 0)
+    solution.peak_pressure = limit(&ExactSolution::peak_pressure).value;
   return solution;
 }
 
@@ -335,13 +342,23 @@ ExactSolution solve_exactly(const ExactScene& scene) {
   // The law with s = 1/3 holds at distances above (2 e)^(3/2), the one with s = 1/2 below. The
   // longest series sees distances down to some 1e-4 of the half-width.
   const double crossover = std::pow(2 * margin, 1.5);
-  if (crossover < 1e-7 * crossing)
+  const bool is_critical = crossover < 1e-7 * crossing;
+  const bool is_slow = crossover > 0.3 * crossing;
+  // A zone narrower than the free contact shows in a defect of the sign of a w that is too small.
+  if (scene.zone_half_width < crossing && Collocation(scene, modes, is_critical ? 2. / 3 : 0.5, 24)
+                                                  .solve(scene.zone_half_width)
+                                                  .defect > 0) {
+    ExactSolution cut = solve_with_ends(scene, modes, is_critical ? -1. / 3 : -0.5);
+    cut.ends_resolved = is_critical || is_slow;
+    return cut;
+  }
+  if (is_critical)
     return solve_with_ends(scene, modes, 2. / 3);
-  const ExactSolution fast = solve_with_ends(scene, modes, 1. / 2);
-  if (crossover > 0.3 * crossing)
-    return fast;
+  const ExactSolution slow = solve_with_ends(scene, modes, 0.5);
+  if (is_slow)
+    return slow;
   const ExactSolution critical = solve_with_ends(scene, modes, 2. / 3);
-  ExactSolution better = fast.force_accuracy < critical.force_accuracy ? fast : critical;
+  ExactSolution better = slow.force_accuracy < critical.force_accuracy ? slow : critical;
   better.ends_resolved = false;
   return better;
 }

@@ -5,6 +5,8 @@
 #include "report.h"
 #include "simulation.h"
 #include "study.h"
+#include "true_errors.h"
+#include "verification.h"
 #include "version.h"
 
 #include <deal.II/grid/tria.h>
@@ -33,6 +35,15 @@ void run(const CommandLine& line) {
   }
   Solution solution = simulate(scene, parameters);
   report_result(std::cout, solution.result);
+  if (line.verify) {
+    if (const auto exact = find_exact_solution(scene, parameters)) {
+      solution.result.errors =
+          measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+      report_verification(std::cout, solution.result, *exact);
+    } else
+      std::cout << "\nNo exact solution is known for this scene: its force is not constant, or its "
+                   "zone cuts the contact short unevenly.\n";
+  }
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(std::cout, solution.result.work, written);
 }

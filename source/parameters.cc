@@ -248,6 +248,9 @@ void declare(Declarations& keys, Parameters& p) {
       [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },
       "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
       "separated by commas, - where none is known.");
+  keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to compare every run with the exact "
+                        "solution of its scene, where there is one.");
   keys.leave();
 
   keys.enter("Output");

@@ -19,7 +19,7 @@ namespace rollwave {
 using namespace dealii;
 
 RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, unsigned int degree)
-    : element(degree), handler(triangulation) {
+    : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
 
   // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
@@ -50,6 +50,11 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
       if (face->at_boundary() && face->boundary_id() == surface_id) {
         face_values.reinit(cell, face);
         cell->get_dof_indices(dofs);
+        faces.emplace_back();
+        const double turn =
+            2 * numbers::PI * std::floor((face->center()[1] - middle) / (2 * numbers::PI) + 0.5);
+        faces.back().begin = face_values.quadrature_point(0)[1] - turn;
+        faces.back().end = face_values.quadrature_point(lobatto.size() - 1)[1] - turn;
         for (const unsigned int q : face_values.quadrature_point_indices())
           for (const unsigned int i : face_values.dof_indices())
             // The quadrature points are the nodes, where one shape function is 1, the others 0.
@@ -58,6 +63,7 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
               types::global_dof_index dof = dofs[i];
               if (const auto* entries = affine_constraints.get_constraint_entries(dof))
                 dof = entries->front().first;
+              faces.back().dofs.push_back(dof);
               const double z = face_values.quadrature_point(q)[1];
               const double angle =
                   z - 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);

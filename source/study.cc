@@ -1,11 +1,16 @@
 #include "study.h"
 
 #include "errors.h"
+#include "memory.h"
 #include "simulation.h"
+#include "true_errors.h"
+#include "verification.h"
 
 #include <deal.II/grid/tria.h>
 
+#include <map>
 #include <ostream>
+#include <tuple>
 
 namespace rollwave {
 
@@ -33,6 +38,25 @@ Parameters run_parameters(const Parameters& parameters, const std::vector<Settin
   return read_parameters(settings);
 }
 
+/// Runs that differ in their mesh only share their exact solution.
+class KnownAnswers {
+public:
+  const std::optional<ExactSolution>& find(const Scene& scene, const Parameters& parameters) {
+    const auto key = std::tuple(scene.inner_radius, scene.outer_radius, scene.angular_velocity,
+                                parameters.road.distance, parameters.cylinder.radial_force,
+                                scene.zone_begin, scene.zone_end);
+    const auto known = answers.find(key);
+    return known != answers.end()
+               ? known->second
+               : answers.emplace(key, find_exact_solution(scene, parameters)).first->second;
+  }
+
+private:
+  std::map<std::tuple<double, double, double, double, std::string, double, double>,
+           std::optional<ExactSolution>>
+      answers;
+};
+
 } // namespace
 
 std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& progress) {
@@ -46,6 +70,7 @@ std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& prog
     make_scene(run_parameters(parameters, settings));
 
   std::vector<StudyRun> runs;
+  KnownAnswers answers;
   for (const auto& settings : varied) {
     StudyRun run;
     run.settings = settings;
@@ -57,7 +82,14 @@ std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& prog
     progress << std::endl;
     try {
       const Parameters own = run_parameters(parameters, settings);
-      run.result = simulate(make_scene(own), own).result;
+      const Scene scene = make_scene(own);
+      Solution solution = simulate(scene, own);
+      if (parameters.study.true_errors)
+        if (const auto exact = answers.find(scene, own))
+          solution.result.errors =
+              measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+      run.peak_memory_mib = peak_memory_mib();
+      run.result = std::move(solution.result);
     } catch (const NotSolved& failure) {
       run.failure = failure.what();
       progress << "  not solved: " << run.failure << std::endl;

@@ -36,6 +36,13 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                      {"peak_pressure", patch.peak_pressure},
                      {"active_nodes", patch.active_nodes}};
   json["energy"] = {{"value", result.energy.value}, {"norm_squared", result.energy.norm_squared}};
+  if (result.errors)
+    json["error"] = {{"exact_energy_norm", result.errors->energy_norm},
+                     {"exact_relative", result.errors->relative_energy_norm},
+                     {"exact_pressure", result.errors->pressure},
+                     {"exact_force", result.errors->force},
+                     {"exact_energy", result.errors->energy},
+                     {"exact_half_width", result.errors->half_width}};
   json["residuals"] = {{"equilibrium", result.residuals.equilibrium},
                        {"penetration", result.residuals.penetration},
                        {"negative_pressure", result.residuals.negative_pressure},

@@ -1,0 +1,68 @@
+#include "verification.h"
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/table_handler.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <ostream>
+#include <sstream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Parameters& parameters) {
+  char* end = nullptr;
+  const double force = std::strtod(parameters.cylinder.radial_force.c_str(), &end);
+  if (*end != '\0')
+    return {};
+  const double left = 3 * numbers::PI / 2 - scene.zone_begin;
+  const double right = scene.zone_end - 3 * numbers::PI / 2;
+  const double narrow = std::min(left, right);
+  if (narrow <= 0)
+    return {};
+  const ExactSolution exact =
+      solve_exactly({scene.inner_radius, scene.outer_radius, scene.angular_velocity,
+                     parameters.road.distance, force, narrow});
+  if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
+    return {};
+  return exact;
+}
+
+void report_verification(std::ostream& out, const Result& result, const ExactSolution& exact) {
+  TableHandler table;
+  const auto add = [&](const std::string& name, double ours, double theirs, double accuracy) {
+    const auto number = [](double value, int digits) {
+      std::ostringstream text;
+      text.precision(digits);
+      text << value;
+      return text.str();
+    };
+    table.add_value("quantity", name);
+    table.add_value("computed", number(ours, 12));
+    table.add_value("exact", number(theirs, 12));
+    table.add_value("difference", number(ours - theirs, 3));
+    table.add_value("relative", theirs == 0 ? "-" : number(ours / theirs - 1, 3));
+    table.add_value("exact to", accuracy > 0 ? number(accuracy, 1) : "-");
+  };
+  add("force F", result.patch.force, exact.force, exact.force_accuracy);
+  add("energy J", result.energy.value, exact.energy, exact.energy_accuracy);
+  add("a(u, u)", result.energy.norm_squared, exact.norm_squared, 0);
+  add("half-width", result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
+  add("peak pressure", result.patch.peak_pressure, exact.peak_pressure, 0);
+  out << "\nVerification against the semi-analytic solution\n";
+  table.write_text(out, TableHandler::table_with_headers);
+  if (!exact.ends_resolved)
+    out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
+           "are.\n";
+  if (result.errors)
+    out << "Error in the energy norm " << result.errors->energy_norm << ", relative "
+        << result.errors->relative_energy_norm << "; of the pressure in L2 "
+        << result.errors->pressure << '\n';
+}
+
+} // namespace rollwave
