@@ -40,6 +40,10 @@ struct TrueErrors {
   double force;                ///< |F - F_h|
   double energy;               ///< |J(u) - J(u_h)|
   double half_width;           ///< |w - w_h|
+
+  /// The order of the energy norm in h that theory expects on uniform meshes: 1/2 where the zone
+  /// cuts the contact short, otherwise the lesser of the degree and 3/2.
+  double expected_order;
 };
 
 /// The numbers of one contact node; gap = phi - u.

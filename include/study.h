@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_STUDY_H
 #define ROLLWAVE_STUDY_H
 
-#include "output.h"
 #include "result.h"
 
 #include <iosfwd>
@@ -28,14 +27,6 @@ struct StudyRun {
  *         `Study/Published steps` does not have one entry for each run.
  */
 std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& progress);
-
-/// The runs as a table aligned for reading.
-std::string study_table(const std::vector<StudyRun>& runs);
-
-/// Writes study.csv, study.txt and study.svg (contact steps over the key that varies fastest).
-/// @throws NotWritten.
-WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
-                         const std::vector<StudyRun>& runs);
 
 } // namespace rollwave
 

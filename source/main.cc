@@ -5,6 +5,7 @@
 #include "report.h"
 #include "simulation.h"
 #include "study.h"
+#include "study_output.h"
 #include "true_errors.h"
 #include "verification.h"
 #include "version.h"
@@ -29,7 +30,8 @@ void run(const CommandLine& line) {
   report_scene(std::cout, scene, parameters);
   if (!parameters.study.vary.empty()) {
     const auto runs = run_study(parameters, std::cout);
-    std::cout << '\n' << study_table(runs);
+    std::cout << '\n';
+    print_study(std::cout, runs);
     report_files(std::cout, write_study(directory, parameters, runs));
     return;
   }

@@ -84,6 +84,7 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   errors.force = std::abs(result.patch.force - exact.force);
   errors.energy = std::abs(result.energy.value - exact.energy);
   errors.half_width = std::abs(result.patch.half_width() - exact.half_width);
+  errors.expected_order = exact.end_exponent < 0 ? 0.5 : std::min<double>(result.mesh.degree, 1.5);
   return errors;
 }
 

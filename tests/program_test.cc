@@ -216,7 +216,7 @@ TEST_F(Program, RunsAStudy) {
                                 " --set 'Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8 "
                                 "| 1.1' --set 'Study/Published steps=4, -, -, -, -, 1'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  for (const char* name : {"study.csv", "study.txt", "study.svg", "parameters.prm"})
+  for (const char* name : {"study.csv", "study.txt", "study.tex", "study.svg", "parameters.prm"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
   std::istringstream rows(read("study.csv"));
@@ -227,6 +227,19 @@ TEST_F(Program, RunsAStudy) {
     std::getline(rows, row);
     EXPECT_EQ(row.find(start), 0u) << row;
   }
+}
+
+TEST_F(Program, VerifiesAScene) {
+  const Outcome outcome = shell("$rollwave --verify " + scene);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("0.332498976"), std::string::npos) << outcome.text;
+  const auto json = nlohmann::json::parse(read("summary.json"));
+  const double relative = json["error"]["exact_relative"];
+  EXPECT_GT(relative, 1e-4);
+  EXPECT_LT(relative, 3e-2);
+  const Outcome unknown = shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=r'");
+  EXPECT_EQ(unknown.exit_code, 0) << unknown.text;
+  EXPECT_NE(unknown.text.find("No exact solution"), std::string::npos) << unknown.text;
 }
 
 TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {
@@ -240,8 +253,14 @@ TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {
 class ShippedFile : public Program, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedFile, Runs) {
-  const Outcome outcome = shell("$rollwave '" ROLLWAVE_PRM_DIRECTORY "/" + GetParam() +
-                                "' --output '" + (directory / "out").string() + "'");
+  // A convergence study is cut down to its first runs.
+  const bool is_long = GetParam().find("studies/") == 0;
+  const Outcome outcome = shell(
+      "$rollwave '" ROLLWAVE_PRM_DIRECTORY "/" + GetParam() + "' --output '" +
+      (directory / "out").string() + "'" +
+      (is_long ? " --set 'Study/Vary=Mesh/Degree = 1 | 2; Mesh/Global refinements = 0 | 1 | 2 "
+                 "| 3'"
+               : ""));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(has("summary.json") || has("study.csv"));
 }

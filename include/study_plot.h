@@ -1,0 +1,34 @@
+#ifndef ROLLWAVE_STUDY_PLOT_H
+#define ROLLWAVE_STUDY_PLOT_H
+
+#include "study.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace rollwave {
+
+/// What a run contributes to a plot; nullopt leaves a gap.
+using RunValue = std::function<std::optional<double>(const StudyRun&)>;
+
+struct StudyPlot {
+  std::string x_label;
+  std::string y_label;
+  RunValue x;
+  RunValue y;
+  RunValue marks; ///< further values shown as open circles; may be empty
+  bool log_x;
+  std::vector<double> slopes; ///< expected powers of x, drawn as dashed lines
+};
+
+/// One curve for each choice of all keys but the one that varies fastest, as SVG; nullopt when
+/// gnuplot cannot draw it.
+std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot);
+
+/// The settings of a run but the one that varies fastest, as text: the name of its curve.
+std::string curve_name(const StudyRun& run);
+
+} // namespace rollwave
+
+#endif

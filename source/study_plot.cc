@@ -1,0 +1,69 @@
+#include "study_plot.h"
+
+#include "gnuplot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace rollwave {
+
+std::string curve_name(const StudyRun& run) {
+  std::string text;
+  for (unsigned int i = 0; i + 1 < run.settings.size(); ++i)
+    text += (i > 0 ? ", " : "") + run.settings[i].key + " " + run.settings[i].value;
+  return text;
+}
+
+namespace {
+
+std::string number_or_nan(const std::optional<double>& value) {
+  std::ostringstream text;
+  text.precision(9);
+  if (value)
+    text << *value;
+  else
+    text << "NaN";
+  return text.str();
+}
+
+} // namespace
+
+std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
+  std::ostringstream script;
+  std::vector<std::string> curves;
+  double x_low = 0, x_high = 0, y_high = 0;
+  for (const StudyRun& run : runs) {
+    if (curves.empty() || curves.back() != curve_name(run)) {
+      script << (curves.empty() ? "" : "EOD\n") << "$curve" << curves.size() << " << EOD\n";
+      curves.push_back(curve_name(run));
+    }
+    const auto x = plot.x(run), y = plot.y(run);
+    if (x && y) {
+      x_low = x_high == 0 ? *x : std::min(x_low, *x);
+      x_high = std::max(x_high, *x);
+      y_high = std::max(y_high, *y);
+    }
+    script << number_or_nan(x) << ' ' << number_or_nan(y) << ' '
+           << number_or_nan(plot.marks ? plot.marks(run) : std::nullopt) << '\n';
+  }
+  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key outside right top\nset logscale y\n"
+         << (plot.log_x ? "set logscale x\nset format x '%.0e'\n" : "") << "set format y '%g'\n"
+         << "set offsets graph 0.03, graph 0.03, 0, 0\nset xlabel '" << plot.x_label
+         << "'\nset ylabel '" << plot.y_label << "'\nplot ";
+  for (unsigned int i = 0; i < curves.size(); ++i) {
+    script << (i > 0 ? ", " : "") << "$curve" << i << " using 1:2 with linespoints linewidth 2 "
+           << "linetype " << i + 1 << " pointtype 7 pointsize 0.6 title '" << curves[i] << "'";
+    if (plot.marks)
+      script << ", $curve" << i << " using 1:3 with points linetype " << i + 1
+             << " pointtype 6 pointsize 1.4 linewidth 2 title '" << curves[i] << " published'";
+  }
+  for (const double slope : plot.slopes)
+    script << ", [" << x_low << ':' << x_high << "] " << y_high << " * (x / "
+           << (slope < 0 ? x_low : x_high) << ")**(" << slope
+           << ") with lines dashtype 2 linecolor rgb '#808080' title 'slope " << slope << "'";
+  script << '\n';
+  return draw_svg(script.str(), 860, 520);
+}
+
+} // namespace rollwave

@@ -1,0 +1,129 @@
+// True errors and their orders: 1 for Q1 and 3/2 for Q2 where contact ends freely, 1/2 where the
+// zone cuts it short, at and below the critical speed.
+#include "true_errors.h"
+
+#include "test_scenes.h"
+#include "verification.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace rollwave;
+
+namespace {
+
+TrueErrors errors_of(const Parameters& parameters, const ExactSolution& exact) {
+  const Solution solution = simulate(make_scene(parameters), parameters);
+  return measure_true_errors(*solution.space, solution.displacement, solution.result, exact);
+}
+
+struct OrderCase {
+  const char* name;
+  std::vector<std::string> scene;
+  int radial_cells;
+  int angular_cells;
+  double expected[2]; ///< for Q1 and Q2
+  double tolerance[2];
+};
+
+class Order : public testing::TestWithParam<OrderCase> {};
+
+TEST_P(Order, IsTheExpectedOne) {
+  const OrderCase& scene = GetParam();
+  const Parameters parameters = with(parameters_of(scene.scene),
+                                     {"Mesh/Radial cells=" + std::to_string(scene.radial_cells),
+                                      "Mesh/Angular cells=" + std::to_string(scene.angular_cells)});
+  const auto exact = find_exact_solution(make_scene(parameters), parameters);
+  ASSERT_TRUE(exact);
+  for (const int degree : {1, 2}) {
+    const auto error = [&](int refinements) {
+      return errors_of(with(parameters, {"Mesh/Degree=" + std::to_string(degree),
+                                         "Mesh/Global refinements=" + std::to_string(refinements)}),
+                       *exact);
+    };
+    const TrueErrors coarse = error(1), fine = error(4);
+    EXPECT_NEAR(std::log2(coarse.energy_norm / fine.energy_norm) / 3, scene.expected[degree - 1],
+                scene.tolerance[degree - 1])
+        << "degree " << degree;
+    EXPECT_EQ(fine.expected_order, scene.expected[degree - 1]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , Order,
+    testing::Values(OrderCase{"regular", {}, 4, 48, {1, 1.5}, {0.05, 0.1}},
+                    OrderCase{
+                        "critical", {"Cylinder/Angular velocity=1"}, 6, 76, {1, 1.5}, {0.05, 0.1}},
+                    OrderCase{"cut",
+                              {"Road/Contact zone=4.450589592585541, 4.974188368183839"},
+                              4,
+                              48,
+                              {0.5, 0.5},
+                              {0.1, 0.1}},
+                    OrderCase{"cut_critical",
+                              {"Road/Contact zone=4.450589592585541, 4.974188368183839",
+                               "Cylinder/Angular velocity=1"},
+                              4,
+                              48,
+                              {0.5, 0.5},
+                              {0.1, 0.1}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
+  // The identity against quadrature of the gradient of u - u_h, u from its modes, on a mesh so
+  // coarse that the modes left out do not matter.
+  const Parameters parameters =
+      parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=24"});
+  const Scene scene = make_scene(parameters);
+  const auto exact = find_exact_solution(scene, parameters);
+  ASSERT_TRUE(exact);
+  const Solution solution = simulate(scene, parameters);
+  const TrueErrors errors =
+      measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+
+  const ExactField field({0.5, 1, 0.5, 0.8, 0}, *exact, 400);
+  const auto& space = *solution.space;
+  const dealii::QGauss<2> gauss(6);
+  dealii::FEValues<2> values(space.mapping(), space.dof_handler().get_fe(), gauss,
+                             dealii::update_gradients | dealii::update_quadrature_points |
+                                 dealii::update_JxW_values);
+  std::vector<dealii::Tensor<1, 2>> gradients(gauss.size());
+  double squared = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    values.reinit(cell);
+    values.get_function_gradients(solution.displacement, gradients);
+    for (const unsigned int q : values.quadrature_point_indices()) {
+      const auto point = values.quadrature_point(q);
+      const auto u = field(point[0], point[1]);
+      squared += point[0] * values.JxW(q) *
+                 (scene.alpha(point[0]) * std::pow(u.angular_derivative - gradients[q][1], 2) +
+                  std::pow(u.radial_derivative - gradients[q][0], 2));
+    }
+  }
+  EXPECT_NEAR(errors.energy_norm / std::sqrt(squared), 1, 2e-3);
+}
+
+TEST(FindExactSolution, KnowsItsLimits) {
+  const auto find = [](const std::vector<std::string>& assignments) {
+    const Parameters parameters = parameters_of(assignments);
+    return find_exact_solution(make_scene(parameters), parameters);
+  };
+  EXPECT_TRUE(find({"Cylinder/Radial force=0.5"}));
+  EXPECT_FALSE(find({"Cylinder/Radial force=0.5*r"}));
+  EXPECT_FALSE(find({"Road/Contact zone=4.6, 5.5"}));
+  // A zone wider than the contact makes no difference, even an uneven one.
+  const auto wide = find({}), uneven = find({"Road/Contact zone=4.1, 5.5"});
+  ASSERT_TRUE(wide && uneven);
+  EXPECT_EQ(wide->force, uneven->force);
+  // Less contact, less force.
+  const auto cut = find({"Road/Contact zone=4.3, 5.1247779607693793"});
+  ASSERT_TRUE(cut);
+  EXPECT_LT(cut->force, wide->force);
+  EXPECT_LT(cut->energy, wide->energy);
+}
+
+} // namespace
