@@ -2,7 +2,7 @@
 #define ROLLWAVE_STUDY_OUTPUT_H
 
 #include "output.h"
-#include "study.h"
+#include "study_run.h"
 
 #include <iosfwd>
 
@@ -12,9 +12,10 @@ namespace rollwave {
 /// beside it: the slope over h from the run before of the same curve, h ~ unknowns^(-1/2).
 void print_study(std::ostream& out, const std::vector<StudyRun>& runs);
 
-/// Writes study.csv, study.txt, study.tex (a LaTeX table) and plots: study.svg, contact steps over
-/// the key that varies fastest, and with true errors study-h.svg, study-unknowns.svg and
-/// study-time.svg, the relative error in the energy norm over h, unknowns and seconds.
+/// Beside study.csv, which run_study() keeps, writes study.txt, study.tex (a LaTeX table) and
+/// plots: study.svg, contact steps over the key that varies fastest, and with true errors
+/// study-h.svg, study-unknowns.svg and study-time.svg, the relative error in the energy norm over
+/// h, unknowns and seconds.
 /// @throws NotWritten.
 WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
                          const std::vector<StudyRun>& runs);

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_STUDY_PLOT_H
 #define ROLLWAVE_STUDY_PLOT_H
 
-#include "study.h"
+#include "study_run.h"
 
 #include <functional>
 #include <optional>
@@ -25,9 +25,6 @@ struct StudyPlot {
 /// One curve for each choice of all keys but the one that varies fastest, as SVG; nullopt when
 /// gnuplot cannot draw it.
 std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot);
-
-/// The settings of a run but the one that varies fastest, as text: the name of its curve.
-std::string curve_name(const StudyRun& run);
 
 } // namespace rollwave
 

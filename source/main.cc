@@ -29,7 +29,7 @@ void run(const CommandLine& line) {
 
   report_scene(std::cout, scene, parameters);
   if (!parameters.study.vary.empty()) {
-    const auto runs = run_study(parameters, std::cout);
+    const auto runs = run_study(parameters, directory, std::cout);
     std::cout << '\n';
     print_study(std::cout, runs);
     report_files(std::cout, write_study(directory, parameters, runs));

@@ -1,15 +1,18 @@
 #include "study.h"
 
+#include "atomic_file.h"
 #include "errors.h"
-#include "memory.h"
+#include "output.h"
 #include "simulation.h"
 #include "true_errors.h"
 #include "verification.h"
 
 #include <deal.II/grid/tria.h>
 
+#include <fstream>
 #include <map>
 #include <ostream>
+#include <sstream>
 #include <tuple>
 
 namespace rollwave {
@@ -57,9 +60,25 @@ private:
       answers;
 };
 
+/// The figures of the runs that an earlier call has finished; otherwise makes the directory that of
+/// this study.
+std::vector<std::map<std::string, double>> finished_runs(const Parameters& parameters,
+                                                         const std::filesystem::path& directory) {
+  std::ostringstream own, earlier;
+  write_parameters(own, parameters);
+  earlier << std::ifstream(directory / "parameters.prm").rdbuf();
+  if (own.str() == earlier.str())
+    return read_study_csv(directory / "study.csv");
+  std::error_code ignored;
+  std::filesystem::remove(directory / "study.csv", ignored);
+  write_file(directory / "parameters.prm", own.str());
+  return {};
+}
+
 } // namespace
 
-std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& progress) {
+std::vector<StudyRun> run_study(const Parameters& parameters,
+                                const std::filesystem::path& directory, std::ostream& progress) {
   const auto varied = combinations(parameters.study.vary);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != varied.size())
@@ -69,6 +88,7 @@ std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& prog
   for (const auto& settings : varied)
     make_scene(run_parameters(parameters, settings));
 
+  const auto finished = finished_runs(parameters, directory);
   std::vector<StudyRun> runs;
   KnownAnswers answers;
   for (const auto& settings : varied) {
@@ -79,6 +99,12 @@ std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& prog
     progress << "run " << runs.size() + 1 << " of " << varied.size() << ':';
     for (const Setting& setting : settings)
       progress << "  " << setting.path() << " = " << setting.value;
+    if (runs.size() < finished.size()) {
+      progress << "  (done before)" << std::endl;
+      run.figures = finished[runs.size()];
+      runs.push_back(std::move(run));
+      continue;
+    }
     progress << std::endl;
     try {
       const Parameters own = run_parameters(parameters, settings);
@@ -88,13 +114,12 @@ std::vector<StudyRun> run_study(const Parameters& parameters, std::ostream& prog
         if (const auto exact = answers.find(scene, own))
           solution.result.errors =
               measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
-      run.peak_memory_mib = peak_memory_mib();
-      run.result = std::move(solution.result);
+      run.figures = figures_of(solution.result);
     } catch (const NotSolved& failure) {
-      run.failure = failure.what();
-      progress << "  not solved: " << run.failure << std::endl;
+      progress << "  not solved: " << failure.what() << std::endl;
     }
     runs.push_back(std::move(run));
+    write_file(directory / "study.csv", study_csv(runs));
   }
   return runs;
 }

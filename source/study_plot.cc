@@ -8,13 +8,6 @@
 
 namespace rollwave {
 
-std::string curve_name(const StudyRun& run) {
-  std::string text;
-  for (unsigned int i = 0; i + 1 < run.settings.size(); ++i)
-    text += (i > 0 ? ", " : "") + run.settings[i].key + " " + run.settings[i].value;
-  return text;
-}
-
 namespace {
 
 std::string number_or_nan(const std::optional<double>& value) {
@@ -34,9 +27,9 @@ std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const S
   std::vector<std::string> curves;
   double x_low = 0, x_high = 0, y_high = 0;
   for (const StudyRun& run : runs) {
-    if (curves.empty() || curves.back() != curve_name(run)) {
+    if (curves.empty() || curves.back() != run.curve()) {
       script << (curves.empty() ? "" : "EOD\n") << "$curve" << curves.size() << " << EOD\n";
-      curves.push_back(curve_name(run));
+      curves.push_back(run.curve());
     }
     const auto x = plot.x(run), y = plot.y(run);
     if (x && y) {
@@ -47,7 +40,7 @@ std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const S
     script << number_or_nan(x) << ' ' << number_or_nan(y) << ' '
            << number_or_nan(plot.marks ? plot.marks(run) : std::nullopt) << '\n';
   }
-  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key outside right top\nset logscale y\n"
+  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key below\nset logscale y\n"
          << (plot.log_x ? "set logscale x\nset format x '%.0e'\n" : "") << "set format y '%g'\n"
          << "set offsets graph 0.03, graph 0.03, 0, 0\nset xlabel '" << plot.x_label
          << "'\nset ylabel '" << plot.y_label << "'\nplot ";
@@ -63,7 +56,7 @@ std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const S
            << (slope < 0 ? x_low : x_high) << ")**(" << slope
            << ") with lines dashtype 2 linecolor rgb '#808080' title 'slope " << slope << "'";
   script << '\n';
-  return draw_svg(script.str(), 860, 520);
+  return draw_svg(script.str(), 760, 560);
 }
 
 } // namespace rollwave

@@ -229,6 +229,34 @@ TEST_F(Program, RunsAStudy) {
   }
 }
 
+TEST_F(Program, GoesOnWithAStudyThatWasStopped) {
+  const std::string study = "$rollwave " + scene +
+                            " --set 'Study/Vary=Road/Contact zone = auto | "
+                            "4.4, 5; Mesh/Degree = 1 | 2 | 3'";
+  ASSERT_EQ(shell(study).exit_code, 0);
+  const std::string complete = read("study.csv"), table = read("study.txt");
+  // As after a stop in the fourth run.
+  std::istringstream lines(complete);
+  std::ostringstream kept;
+  std::string line;
+  for (int i = 0; i < 4 && std::getline(lines, line); ++i)
+    kept << line << '\n';
+  std::ofstream(directory / "out" / "study.csv") << kept.str();
+  const Outcome outcome = shell(study);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  unsigned int skipped = 0;
+  for (auto at = outcome.text.find("done before"); at != std::string::npos;
+       at = outcome.text.find("done before", at + 1))
+    ++skipped;
+  EXPECT_EQ(skipped, 3u);
+  // Finished rows are kept to the last digit, seconds included.
+  EXPECT_EQ(read("study.csv").find(kept.str()), 0u);
+  // Another study in the same place starts anew.
+  const Outcome other = shell(study + " --set Mesh/Angular\\ cells=48");
+  EXPECT_EQ(other.exit_code, 0) << other.text;
+  EXPECT_EQ(other.text.find("done before"), std::string::npos) << other.text;
+}
+
 TEST_F(Program, VerifiesAScene) {
   const Outcome outcome = shell("$rollwave --verify " + scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;

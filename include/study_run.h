@@ -1,0 +1,39 @@
+#ifndef ROLLWAVE_STUDY_RUN_H
+#define ROLLWAVE_STUDY_RUN_H
+
+#include "result.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// One run of a study: the settings in which it differs from the others, and its figures by name,
+/// as in the columns of study.csv. A run that was not solved has none.
+struct StudyRun {
+  std::vector<Setting> settings;
+  std::optional<unsigned int> published_steps;
+  std::map<std::string, double> figures;
+
+  bool is_solved() const { return !figures.empty(); }
+  std::optional<double> figure(const std::string& name) const;
+
+  /// The settings but the one that varies fastest, as text: runs that share it make a curve.
+  std::string curve() const;
+};
+
+/// The figures of a solved scene, and the peak memory of the process so far.
+std::map<std::string, double> figures_of(const Result& result);
+
+/// study.csv: the varied keys, `solved`, `published_steps`, then the figures in full precision.
+std::string study_csv(const std::vector<StudyRun>& runs);
+
+/// The figures that study_csv() wrote, one entry for each run; none when the file is not there.
+std::vector<std::map<std::string, double>> read_study_csv(const std::filesystem::path& file);
+
+} // namespace rollwave
+
+#endif
