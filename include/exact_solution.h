@@ -32,6 +32,7 @@ struct ExactScene {
  * k run exactly up to some k, then as integrals, then as the mean of their asymptotic form.
  */
 struct ExactSolution {
+  ExactScene scene;
   double half_width;   ///< w; 0 without contact
   double force;        ///< F = b int lambda dz
   double energy;       ///< J(u)
@@ -76,6 +77,10 @@ public:
 
   /// At a <= r <= b and any angle.
   Value operator()(double r, double z) const;
+
+  /// For each of @p radii the coefficients of u(r, .) over cos(k (z - 3 pi/2)), as many as are not
+  /// negligible there.
+  std::vector<std::vector<double>> cosine_coefficients(const std::vector<double>& radii) const;
 
 private:
   ExactScene scene;

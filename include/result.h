@@ -36,6 +36,7 @@ struct Residuals {
 struct TrueErrors {
   double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
   double relative_energy_norm; ///< over that of u
+  double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
   double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
   double force;                ///< |F - F_h|
   double energy;               ///< |J(u) - J(u_h)|

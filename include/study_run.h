@@ -31,7 +31,8 @@ std::map<std::string, double> figures_of(const Result& result);
 /// study.csv: the varied keys, `solved`, `published_steps`, then the figures in full precision.
 std::string study_csv(const std::vector<StudyRun>& runs);
 
-/// The figures that study_csv() wrote, one entry for each run; none when the file is not there.
+/// The figures that study_csv() wrote, one entry for each run; none when the file is not there or
+/// has other columns.
 std::vector<std::map<std::string, double>> read_study_csv(const std::filesystem::path& file);
 
 } // namespace rollwave

@@ -19,6 +19,8 @@ namespace rollwave {
  * rule
  * [.,.]_h, nodes at which it is singular left out.
  *
+ * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
+ *
  * @p exact must be the solution of the scene that @p result and @p field solve on @p space.
  */
 TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,

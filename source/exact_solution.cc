@@ -234,17 +234,12 @@ ExactSolution describe(const ExactScene& scene, const Collocation& collocation, 
   std::vector<double> coefficients(2 * collocation.n);
   for (unsigned int i = 0; i < collocation.n; ++i)
     coefficients[2 * i] = trial.coefficients(i);
-  ExactSolution solution{w,
-                         0,
-                         0,
-                         0,
-                         0,
-                         0,
-                         0,
-                         0,
-                         collocation.nu - 0.5,
-                         true,
-                         {3 * numbers::PI / 2, w, collocation.nu, coefficients}};
+  ExactSolution solution{scene, w,
+                         0,     0,
+                         0,     0,
+                         0,     0,
+                         0,     collocation.nu - 0.5,
+                         true,  {3 * numbers::PI / 2, w, collocation.nu, coefficients}};
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   solution.force = b * solution.pressure.cosine_integral(0);
@@ -336,7 +331,7 @@ ExactSolution solve_exactly(const ExactScene& scene) {
     const double work = 2 * numbers::PI * f * f *
                         (-square * square / 16 +
                          b * b / 2 * (b * b / 2 * std::log(b / scene.inner_radius) - square / 4));
-    return {0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {3 * numbers::PI / 2, 1, 1, {0.}}};
+    return {scene, 0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {3 * numbers::PI / 2, 1, 1, {0.}}};
   }
   const RadialModes modes(scene.inner_radius, scene.outer_radius, scene.angular_velocity);
   // The law with s = 1/3 holds at distances above (2 e)^(3/2), the one with s = 1/2 below. The
@@ -389,6 +384,36 @@ ExactField::Value ExactField::operator()(double r, double z) const {
       break;
   }
   return value;
+}
+
+std::vector<std::vector<double>>
+ExactField::cosine_coefficients(const std::vector<double>& radii) const {
+  std::vector<std::vector<double>> coefficients(radii.size());
+  for (unsigned int i = 0; i < radii.size(); ++i)
+    coefficients[i].push_back(contact_free_displacement(scene, radii[i]));
+  // Radii at which modes still matter, the outermost last to fade.
+  std::vector<unsigned int> left(radii.size());
+  for (unsigned int i = 0; i < radii.size(); ++i)
+    left[i] = i;
+  for (unsigned int k = 0; k < amplitudes.size() && !left.empty(); ++k) {
+    std::vector<double> own;
+    for (const unsigned int i : left)
+      own.push_back(radii[i]);
+    const RadialModes::Profile profile = modes.profile(k, own);
+    std::vector<unsigned int> next;
+    for (unsigned int j = 0; j < left.size(); ++j) {
+      auto& list = coefficients[left[j]];
+      if (k == 0)
+        list[0] += amplitudes[0] * profile.value[j];
+      else
+        list.push_back(amplitudes[k] * profile.value[j]);
+      if (k * std::log(radii[left[j]] / scene.inner_radius) < 1 ||
+          std::abs(profile.value[j]) > 1e-9)
+        next.push_back(left[j]);
+    }
+    left = std::move(next);
+  }
+  return coefficients;
 }
 
 } // namespace rollwave

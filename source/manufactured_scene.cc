@@ -41,7 +41,19 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
     return cosine[0] + std::cos(x) * c1 - c2 + std::sin(x) * s1;
   };
 
-  ManufacturedScene made{{}, {w, 0, 0, 0, 0, 0, 0, 0, end_exponent, true, pressure}};
+  ManufacturedScene made{{},
+                         {{inner_radius, outer_radius, angular_velocity, 0, 0},
+                          w,
+                          0,
+                          0,
+                          0,
+                          0,
+                          0,
+                          0,
+                          0,
+                          end_exponent,
+                          true,
+                          pressure}};
   made.exact.force = outer_radius * pressure.cosine_integral(0);
   made.exact.norm_squared = norm_squared;
   made.exact.energy = norm_squared / 2;

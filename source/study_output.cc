@@ -75,6 +75,7 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
                         i > 0 ? observed_order(runs[i - 1], run, figure) : std::string("-"));
       };
       add_error("energy norm", "error_relative");
+      add_error("L2 norm", "error_l2_norm");
       add_error("pressure", "error_pressure");
       add_error("F", "error_force");
       add_error("J", "error_energy");

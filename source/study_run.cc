@@ -38,8 +38,17 @@ const std::vector<std::string>& figure_names() {
                                                  "seconds_back-substitution",
                                                  "seconds_measurement",
                                                  "seconds",
-                                                 "peak_memory_mib"};
+                                                 "peak_memory_mib",
+                                                 "error_l2_norm"};
   return names;
+}
+
+/// The end of the header, which is the same for all studies.
+std::string figure_header() {
+  std::string header = "solved,published_steps";
+  for (const std::string& name : figure_names())
+    header += "," + name;
+  return header;
 }
 
 } // namespace
@@ -73,6 +82,7 @@ std::map<std::string, double> figures_of(const Result& result) {
   if (result.errors) {
     figures["error_energy_norm"] = result.errors->energy_norm;
     figures["error_relative"] = result.errors->relative_energy_norm;
+    figures["error_l2_norm"] = result.errors->l2_norm;
     figures["error_pressure"] = result.errors->pressure;
     figures["error_force"] = result.errors->force;
     figures["error_energy"] = result.errors->energy;
@@ -87,10 +97,7 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
   out.precision(std::numeric_limits<double>::max_digits10);
   for (const Setting& setting : runs.front().settings)
     out << setting.path() << ',';
-  out << "solved,published_steps";
-  for (const std::string& name : figure_names())
-    out << ',' << name;
-  out << '\n';
+  out << figure_header() << '\n';
   for (const StudyRun& run : runs) {
     for (const Setting& setting : run.settings)
       out << (setting.value.find(',') == std::string::npos ? setting.value
@@ -114,6 +121,10 @@ std::vector<std::map<std::string, double>> read_study_csv(const std::filesystem:
   std::string line;
   std::vector<std::map<std::string, double>> rows;
   std::getline(in, line);
+  const std::string expected = figure_header();
+  if (line.size() < expected.size() ||
+      line.compare(line.size() - expected.size(), expected.size(), expected) != 0)
+    return rows;
   while (std::getline(in, line)) {
     // Figures are the last fields, and have no commas; the varied values before them may.
     std::vector<std::string> fields;

@@ -39,6 +39,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   if (result.errors)
     json["error"] = {{"exact_energy_norm", result.errors->energy_norm},
                      {"exact_relative", result.errors->relative_energy_norm},
+                     {"exact_l2_norm", result.errors->l2_norm},
                      {"exact_pressure", result.errors->pressure},
                      {"exact_force", result.errors->force},
                      {"exact_energy", result.errors->energy},

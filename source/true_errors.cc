@@ -4,9 +4,11 @@
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace rollwave {
 
@@ -50,6 +52,59 @@ double work_of_pressure(const SurfaceFace& face, const FieldVector& field,
       angle(begin), angle(end), 1e-12);
 }
 
+/// sum_k c_k cos(k x) by Clenshaw's recurrence.
+double cosine_sum(const std::vector<double>& coefficients, double x) {
+  const double factor = 2 * std::cos(x);
+  double first = 0, second = 0;
+  for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
+    const double next = coefficients[k] + factor * first - second;
+    second = first;
+    first = next;
+  }
+  return coefficients[0] + factor / 2 * first - second;
+}
+
+/// The L2 norm of u - u_h. Points of a mesh share few radii, for each of which u is a series over
+/// the angle.
+double l2_error(const RingSpace& space, const FieldVector& field, const ExactSolution& exact) {
+  const auto& element = space.dof_handler().get_fe();
+  const QGauss<2> gauss(element.degree + 2);
+  FEValues<2> values(space.mapping(), element, gauss,
+                     update_values | update_quadrature_points | update_JxW_values);
+  // Round-off in the vertices must not make two radii of one.
+  const double resolution = 1e-10 * space.outer_radius();
+  const auto key = [resolution](double r) { return std::llround(r / resolution); };
+
+  std::map<long long, double> radii;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    values.reinit(cell);
+    for (const Point<2>& point : values.get_quadrature_points())
+      radii.emplace(key(point[0]), point[0]);
+  }
+  std::vector<double> list;
+  for (const auto& [rounded, r] : radii)
+    list.push_back(r);
+  // Modes that the mesh cannot resolve by far are no part of its error.
+  const unsigned int n_modes = 2 * space.surface_nodes().size() + 50;
+  const auto coefficients = ExactField(exact.scene, exact, n_modes).cosine_coefficients(list);
+  std::map<long long, const std::vector<double>*> series;
+  for (const auto& [rounded, r] : radii)
+    series[rounded] = &coefficients[series.size()];
+
+  std::vector<double> displacement(gauss.size());
+  double squared = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    values.reinit(cell);
+    values.get_function_values(field, displacement);
+    for (const unsigned int q : values.quadrature_point_indices()) {
+      const Point<2> point = values.quadrature_point(q);
+      const double u = cosine_sum(*series.at(key(point[0])), point[1] - exact.pressure.middle());
+      squared += point[0] * (u - displacement[q]) * (u - displacement[q]) * values.JxW(q);
+    }
+  }
+  return std::sqrt(squared);
+}
+
 } // namespace
 
 TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
@@ -80,6 +135,7 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   errors.energy_norm = std::sqrt(std::max(energy_squared, 0.));
   errors.relative_energy_norm =
       exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
+  errors.l2_norm = l2_error(space, field, exact);
   errors.pressure = std::sqrt(pressure_squared);
   errors.force = std::abs(result.patch.force - exact.force);
   errors.energy = std::abs(result.energy.value - exact.energy);

@@ -61,8 +61,8 @@ void report_verification(std::ostream& out, const Result& result, const ExactSol
            "are.\n";
   if (result.errors)
     out << "Error in the energy norm " << result.errors->energy_norm << ", relative "
-        << result.errors->relative_energy_norm << "; of the pressure in L2 "
-        << result.errors->pressure << '\n';
+        << result.errors->relative_energy_norm << "; in L2 " << result.errors->l2_norm
+        << ", of the pressure in L2 " << result.errors->pressure << '\n';
 }
 
 } // namespace rollwave
