@@ -1,5 +1,7 @@
 #include "manufactured_scene.h"
 
+#include "radial_modes.h"
+
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 #include "true_errors.h"
 
+#include "exact_field.h"
+
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
 #include <deal.II/base/polynomial.h>

@@ -1,5 +1,6 @@
 // The semi-analytic answer: known digits, asymptotic laws, and the optimality conditions point by
 // point.
+#include "exact_field.h"
 #include "exact_solution.h"
 
 #include "test_scenes.h"

@@ -2,6 +2,8 @@
 // zone cuts it short, at and below the critical speed.
 #include "true_errors.h"
 
+#include "exact_field.h"
+
 #include "test_scenes.h"
 #include "verification.h"
 
