@@ -180,19 +180,15 @@ RadialModes::Profile RadialModes::profile(double k, const std::vector<double>& r
       q_to_the_right[i] += rule.to_the_right[i][j] * depth / 2 * std::exp(2 * samples.exponent[j]);
   }
   for (const double r : radii) {
-    // Values between the points by Legendre's expansion, from the integrals to the right: the
-    // difference of two integrals is one over a short stretch, so interpolate by barycentric
-    // weights.
+    // Barycentric interpolation between Gauss-Legendre points.
     const double t = 1 + 2 * std::log(r / b) / depth;
     double numerator = 0, q_numerator = 0, denominator = 0;
-    bool at_point = false;
-    for (int i = 0; i < n_points && !at_point; ++i) {
+    for (int i = 0; i < n_points; ++i) {
       const double distance = t - rule.point[i];
       if (distance == 0) {
         numerator = samples.exponent[i];
         q_numerator = has_hub ? q_to_the_right[i] : 0;
         denominator = 1;
-        at_point = true;
         break;
       }
       const double weight = (i % 2 ? -1 : 1) *
