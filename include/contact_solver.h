@@ -44,9 +44,11 @@ struct ContactSolution {
   std::string remark = ""; ///< anything unusual the user should know
 };
 
-/// Solves by the method of @p parameters. @throws NotSolved as the methods do.
+/// Solves by the method of @p parameters, beginning with the contact pressures @p start (none when
+/// it has no entries). @throws NotSolved as the methods do.
 ContactSolution solve_contact(StiffnessSolver& solver, const ContactProblem& problem,
-                              const Parameters& parameters);
+                              const Parameters& parameters,
+                              const dealii::Vector<double>& start = {});
 
 } // namespace rollwave
 

@@ -32,6 +32,26 @@ enum class SolverKind {
   direct
 };
 
+enum class Indicator {
+  /// "auto": "certificate" when the error bound is wanted anyhow, else "residual".
+  automatic,
+  /// "residual": the residual indicator; costs a small part of a solve.
+  residual,
+  /// "certificate": the contributions of the cells to the error bound; costs a solve.
+  certificate,
+  /// "kelly": jumps of the normal derivative, deal.II's KellyErrorEstimator; for comparison.
+  kelly
+};
+
+enum class Marking {
+  /// "bulk": the cells with the largest indicators that hold a fraction of the sum of squares.
+  bulk,
+  /// "number": a fraction of all cells, those with the largest indicators.
+  number,
+  /// "all": every cell.
+  all
+};
+
 enum class OutputFile { summary, contact, parameters, solution, plot };
 
 /**
@@ -56,8 +76,17 @@ struct Parameters {
     unsigned int radial_cells = 16;
     unsigned int angular_cells = 200;
     unsigned int global_refinements = 0;
+    std::optional<unsigned int> adaptive_cycles; ///< nullopt: as many as the wanted error needs
+    double wanted_relative_error = 0;            ///< 0: none
+    Indicator indicator = Indicator::automatic;
+    Marking marking = Marking::bulk;
+    double marked_fraction = 0.6;
     unsigned int most_unknowns = 5000000;
   } mesh;
+
+  struct {
+    bool error_bound = true;
+  } certificate;
 
   struct {
     ContactMethod method = ContactMethod::active_set;
@@ -76,6 +105,7 @@ struct Parameters {
     std::vector<std::vector<Setting>> vary;
     std::vector<std::optional<unsigned int>> published_steps;
     bool true_errors = false;
+    unsigned int reference_unknowns = 300000;
   } study;
 
   struct {

@@ -24,6 +24,24 @@ struct Energy {
   double norm_squared; ///< a(u_h, u_h)
 };
 
+/// What the certificate guarantees, see Certificate.
+struct CertifiedError {
+  double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
+  double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
+  double lower_bound;  ///< of J(u)
+  double upper_bound;  ///< of J(u), the energy J(v)
+  double norm_squared; ///< a(v, v)
+};
+
+/// One mesh of an adaptive run.
+struct CycleFigures {
+  unsigned int cells;
+  unsigned int dofs;
+  unsigned int contact_steps;
+  double indicated;                ///< sqrt(sum eta_K^2) of the indicator; 0 on the last mesh
+  std::optional<double> certified; ///< CertifiedError::relative where it was computed
+};
+
 /// How well the optimality conditions hold, each relative to its own data; all zero is perfect.
 struct Residuals {
   double equilibrium;       ///< |f - K u - N|_2 / max(|f|_2, |N|_2)
@@ -42,8 +60,14 @@ struct TrueErrors {
   double energy;               ///< |J(u) - J(u_h)|
   double half_width;           ///< |w - w_h|
 
-  /// The order of the energy norm in h that theory expects on uniform meshes: 1/2 where the zone
-  /// cuts the contact short, otherwise the lesser of the degree and 3/2.
+  /// sqrt(a(u - v, u - v)) of the feasible displacement v that the certificate speaks of, and the
+  /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate.
+  std::optional<double> feasible_energy_norm;
+  std::optional<double> effectivity;
+
+  /// The order of the energy norm in h ~ unknowns^(-1/2) that theory expects. On uniform meshes:
+  /// 1/2 where the zone cuts the contact short, otherwise the lesser of the degree and 3/2; on
+  /// adaptive ones the degree.
   double expected_order;
 };
 
@@ -68,10 +92,13 @@ struct Result {
   ContactPatch patch;
   Energy energy;
   Residuals residuals;
+  std::optional<CertifiedError> certified;
   std::optional<TrueErrors> errors; ///< where a comparison with the exact solution was asked for
-  std::vector<ContactStep> history;
-  double rho; ///< Uzawa's step length; 0 for the active set method
+  std::vector<CycleFigures> cycles; ///< one for each mesh
+  std::vector<ContactStep> history; ///< on the last mesh
+  double rho;                       ///< Uzawa's step length; 0 for the active set method
   std::string remark;
+  std::string shortfall; ///< what was wanted and not reached, with the key to change; mostly empty
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
   Work work;

@@ -29,6 +29,7 @@ struct SurfaceNode {
 
 /// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.
 struct SurfaceFace {
+  dealii::DoFHandler<2>::active_cell_iterator cell;
   double begin; ///< angle, in the range of SurfaceNode::angle
   double end;
   std::vector<dealii::types::global_dof_index> dofs;
@@ -58,7 +59,7 @@ public:
   /// All nodes on r = b by increasing angle.
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
 
-  /// All edges on r = b, in no order.
+  /// All edges on r = b by increasing angle of the mesh, beginning at the seam.
   const std::vector<SurfaceFace>& surface_faces() const { return faces; }
 
   /// The nodes in [z0, z1], a stretch of surface_nodes().

@@ -2,6 +2,7 @@
 #define ROLLWAVE_SCENE_H
 
 #include <functional>
+#include <optional>
 
 namespace rollwave {
 
@@ -38,8 +39,14 @@ struct Scene {
   /// phi(z): the displacement at which the surface touches the road, a length.
   std::function<double(double z)> road;
 
+  /// dphi/dz
+  std::function<double(double z)> road_slope;
+
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
   double zone_end;   ///< z1 in (z0, z0 + 2 pi)
+
+  /// f where it is a constant that is known, so that its integrals need no quadrature.
+  std::optional<double> uniform_force = {};
 
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
@@ -47,6 +54,9 @@ struct Scene {
 
 /// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle.
 std::function<double(double)> flat_road(double outer_radius, double distance);
+
+/// phi'(z) = c cos z / sin^2 z of the same road.
+std::function<double(double)> flat_road_slope(double distance);
 
 /**
  * The scene that @p parameters describe.

@@ -14,8 +14,26 @@ struct Scene;
 /// nodes last; -1 where a constraint holds.
 std::vector<int> number_unknowns(const RingSpace& space);
 
-/// The stiffness matrix of the unknowns: constrained degrees of freedom are replaced by the
-/// combination of unknowns that their constraint names.
+/// Adds up cell matrices to a matrix of the unknowns: constrained degrees of freedom are replaced
+/// by the combination of unknowns that their constraint names.
+class TripletAssembler {
+public:
+  /// @p unknown_of_dof is as number_unknowns() returns it.
+  TripletAssembler(const RingSpace& space, const dealii::AffineConstraints<double>& constraints,
+                   const std::vector<int>& unknown_of_dof);
+
+  void add(const std::vector<dealii::types::global_dof_index>& dofs,
+           const dealii::FullMatrix<double>& cell_matrix);
+
+  LowerTriplets triplets;
+
+private:
+  const dealii::AffineConstraints<double>& constraints;
+  const std::vector<int>& unknown_of_dof;
+  std::vector<std::vector<std::pair<int, double>>> expansion;
+};
+
+/// The stiffness matrix of the unknowns.
 LowerTriplets assemble_triplets(const RingSpace& space, const Scene& scene,
                                 const std::vector<int>& unknown_of_dof);
 

@@ -17,6 +17,7 @@ struct StudyRun {
   std::vector<Setting> settings;
   std::optional<unsigned int> published_steps;
   std::map<std::string, double> figures;
+  std::string reference; ///< what its errors are measured against; empty without errors
 
   bool is_solved() const { return !figures.empty(); }
   std::optional<double> figure(const std::string& name) const;
@@ -28,12 +29,13 @@ struct StudyRun {
 /// The figures of a solved scene, and the peak memory of the process so far.
 std::map<std::string, double> figures_of(const Result& result);
 
-/// study.csv: the varied keys, `solved`, `published_steps`, then the figures in full precision.
+/// study.csv: the varied keys, `solved`, `published_steps`, `reference`, then the figures in full
+/// precision.
 std::string study_csv(const std::vector<StudyRun>& runs);
 
-/// The figures that study_csv() wrote, one entry for each run; none when the file is not there or
-/// has other columns.
-std::vector<std::map<std::string, double>> read_study_csv(const std::filesystem::path& file);
+/// The runs that study_csv() wrote, without their settings and published steps; none when the file
+/// is not there or has other columns.
+std::vector<StudyRun> read_study_csv(const std::filesystem::path& file);
 
 } // namespace rollwave
 

@@ -1,30 +1,31 @@
 #ifndef ROLLWAVE_TRUE_ERRORS_H
 #define ROLLWAVE_TRUE_ERRORS_H
 
-#include "exact_solution.h"
+#include "certificate.h"
+#include "reference.h"
 #include "result.h"
-#include "ring_space.h"
 
 namespace rollwave {
 
 /**
- * The errors of a discrete solution against the exact one. The energy norm needs no quadrature of
- * gradients: with the exact pressure lambda,
+ * The errors of a discrete solution against a reference. The energy norm needs no quadrature of
+ * gradients: with the pressure lambda of the reference,
  *
  *     a(u - u_h, u - u_h) = a(u, u) - 2 a(u, u_h) + a(u_h, u_h),
  *     a(u, u_h) = (f, u_h) - b int lambda u_h dz.
  *
  * Cancellation sets a floor of about 1e-7 to the relative error (1e-4 where the zone cuts the
  * contact short and the exact pressure is singular). The pressure is compared at the nodes by the
- * rule
- * [.,.]_h, nodes at which it is singular left out.
+ * rule [.,.]_h, nodes at which it is singular left out.
  *
  * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
  *
- * @p exact must be the solution of the scene that @p result and @p field solve on @p space.
+ * @p reference must be the solution of the scene that @p result and @p field solve on @p space;
+ * @p certificate, where there is one, that of this solution.
  */
 TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
-                               const Result& result, const ExactSolution& exact);
+                               const Result& result, const std::optional<Certificate>& certificate,
+                               const Reference& reference);
 
 } // namespace rollwave
 

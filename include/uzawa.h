@@ -15,7 +15,8 @@ struct UzawaSettings {
 };
 
 /**
- * The method of Ross and Bercovier: with p = -lambda <= 0, from p = 0,
+ * The method of Ross and Bercovier: with p = -lambda <= 0, from p = 0 or the pressures lambda of @p
+ * start,
  *
  *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
  *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
@@ -28,7 +29,7 @@ struct UzawaSettings {
  *         settings.most_steps steps.
  */
 ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
-                      const UzawaSettings& settings);
+                      const UzawaSettings& settings, const dealii::Vector<double>& start = {});
 
 /**
  * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes

@@ -18,6 +18,7 @@ public:
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;
   unsigned int back_substitutions = 0;
+  unsigned int linear_iterations = 0; ///< of an iterative solver of linear systems
   unsigned long bytes_written = 0;
 
   /// Adds the time until it is destroyed to a phase.

@@ -59,9 +59,11 @@ void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next)
 } // namespace
 
 ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& problem,
-                           unsigned int most_steps) {
+                           unsigned int most_steps, const Vector<double>& start) {
   ContactSolution solution;
   solution.active.assign(problem.size(), false);
+  for (unsigned int i = 0; i < start.size(); ++i)
+    solution.active[i] = start(i) > 0;
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
 

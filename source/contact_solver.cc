@@ -19,12 +19,12 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
 }
 
 ContactSolution solve_contact(StiffnessSolver& solver, const ContactProblem& problem,
-                              const Parameters& parameters) {
+                              const Parameters& parameters, const dealii::Vector<double>& start) {
   const auto& contact = parameters.contact;
   if (contact.method == ContactMethod::uzawa)
     return uzawa(solver, problem,
-                 {contact.rho, contact.stop, contact.tolerance, contact.most_steps});
-  return active_set(solver, problem, contact.most_steps);
+                 {contact.rho, contact.stop, contact.tolerance, contact.most_steps}, start);
+  return active_set(solver, problem, contact.most_steps, start);
 }
 
 } // namespace rollwave

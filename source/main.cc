@@ -40,7 +40,8 @@ void run(const CommandLine& line) {
   if (line.verify) {
     if (const auto exact = find_exact_solution(scene, parameters)) {
       solution.result.errors =
-          measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+          measure_true_errors(*solution.space, solution.displacement, solution.result,
+                              solution.certificate, exact_reference(*exact));
       report_verification(std::cout, solution.result, *exact);
     } else
       std::cout << "\nNo exact solution is known for this scene: its force is not constant, or its "
@@ -48,6 +49,8 @@ void run(const CommandLine& line) {
   }
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(std::cout, solution.result.work, written);
+  if (!solution.result.shortfall.empty())
+    throw NotSolved(solution.result.shortfall);
 }
 
 int act(const std::vector<std::string>& arguments) {

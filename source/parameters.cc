@@ -199,8 +199,45 @@ void declare(Declarations& keys, Parameters& p) {
   keys.add_count("Angular cells", p.mesh.angular_cells, 3, most, "Cells around, 3 or more.");
   keys.add_count("Global refinements", p.mesh.global_refinements, 0, 20,
                  "How often every cell is cut into four, 0 to 20.");
+  keys.add(
+      "Adaptive cycles", "auto",
+      [&p](const std::string& text) {
+        p.mesh.adaptive_cycles =
+            text == "auto" ? std::nullopt : std::optional(to_count(text, 0, 1000));
+      },
+      "How often the mesh is refined where the error is, after the global refinements: a number or "
+      "\"auto\", as often as the wanted relative error needs, which is never when none is wanted.");
+  keys.add_number("Wanted relative error", p.mesh.wanted_relative_error, 0, 1,
+                  "Refine until the certified error in the energy norm, relative to the solution, "
+                  "is no larger than this number, from 0 to 1; 0 for no such wish.");
+  keys.add_choice<Indicator>(
+      "Indicator", p.mesh.indicator,
+      {{"auto", Indicator::automatic},
+       {"residual", Indicator::residual},
+       {"certificate", Indicator::certificate},
+       {"kelly", Indicator::kelly}},
+      "What tells where to refine. \"residual\": residuals and contact conditions on each cell, "
+      "cheap. \"certificate\": the cells' parts of the error bound, for the smallest bound; costs "
+      "a second linear solve in each cycle. \"kelly\": jumps of the normal derivative, for "
+      "comparison. \"auto\": \"certificate\" with Certificate/Error bound, else \"residual\".");
+  keys.add_choice<Marking>(
+      "Marking", p.mesh.marking,
+      {{"bulk", Marking::bulk}, {"number", Marking::number}, {"all", Marking::all}},
+      "Which cells to refine. \"bulk\": the fewest that hold the marked fraction of the squared "
+      "error. \"number\": the marked fraction of all cells. \"all\": every cell.");
+  keys.add_number("Marked fraction", p.mesh.marked_fraction, 0.01, 1,
+                  "The fraction that Marking speaks of, from 0.01 to 1.");
   keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
-                 "A mesh with more unknowns than this number is refused.");
+                 "A mesh with more unknowns than this number is refused; adaptive refinement ends "
+                 "before it.");
+  keys.leave();
+
+  keys.enter("Certificate");
+  keys.add_choice<bool>("Error bound", p.certificate.error_bound,
+                        {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to compute a guaranteed bound of the error "
+                        "in the energy norm, with bounds of the energy from both sides; costs "
+                        "about a second linear solve.");
   keys.leave();
 
   keys.enter("Contact");
@@ -250,7 +287,10 @@ void declare(Declarations& keys, Parameters& p) {
       "separated by commas, - where none is known.");
   keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
                         "\"true\" or \"false\": whether to compare every run with the exact "
-                        "solution of its scene, where there is one.");
+                        "solution of its scene or, where none is known, with an adaptive solution "
+                        "of quadratic elements that is much finer.");
+  keys.add_count("Reference unknowns", p.study.reference_unknowns, 1, most,
+                 "The most unknowns of that finer solution.");
   keys.leave();
 
   keys.enter("Output");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <sstream>
 
 namespace rollwave {
 
@@ -37,6 +38,26 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history) 
   table.write_text(out, TableHandler::table_with_headers);
 }
 
+void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
+  TableHandler table;
+  for (unsigned int i = 0; i < cycles.size(); ++i) {
+    const auto number = [](bool exists, double value) {
+      std::ostringstream text;
+      text << std::setprecision(3) << value;
+      return exists ? text.str() : std::string("-");
+    };
+    table.add_value("cycle", i + 1);
+    table.add_value("cells", cycles[i].cells);
+    table.add_value("unknowns", cycles[i].dofs);
+    table.add_value("contact steps", cycles[i].contact_steps);
+    table.add_value("indicated error", number(cycles[i].indicated > 0, cycles[i].indicated));
+    table.add_value("certified, relative",
+                    number(cycles[i].certified.has_value(), cycles[i].certified.value_or(0)));
+  }
+  out << "\nAdaptive refinement\n";
+  table.write_text(out, TableHandler::table_with_headers);
+}
+
 } // namespace
 
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
@@ -51,6 +72,8 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 }
 
 void report_result(std::ostream& out, const Result& result) {
+  if (result.cycles.size() > 1)
+    report_cycles(out, result.cycles);
   const MeshFigures& mesh = result.mesh;
   out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs
       << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min << " to "
@@ -76,8 +99,14 @@ void report_result(std::ostream& out, const Result& result) {
       << "  work-conjugate load  G = " << patch.work_conjugate_load << '\n'
       << "  peak pressure            " << patch.peak_pressure << '\n'
       << "  energy               J = " << result.energy.value
-      << ", a(u, u) = " << result.energy.norm_squared << '\n'
-      << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
+      << ", a(u, u) = " << result.energy.norm_squared << '\n';
+  if (result.certified) {
+    const CertifiedError& certified = *result.certified;
+    out << "Certified  J from " << std::setprecision(9) << certified.lower_bound << " to "
+        << certified.upper_bound << ", error in the energy norm at most " << std::setprecision(3)
+        << certified.energy_norm << ", relative " << certified.relative << '\n';
+  }
+  out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
       << ", penetration " << result.residuals.penetration << ", negative pressure "
       << result.residuals.negative_pressure << ", complementarity "
       << result.residuals.complementarity << '\n'

@@ -25,7 +25,8 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
                                " unknowns; allow more, or ask for fewer cells, refinements or a "
                                "lower degree"));
 
-  auto triangulation = std::make_unique<Triangulation<2>>();
+  auto triangulation =
+      std::make_unique<Triangulation<2>>(Triangulation<2>::limit_level_difference_at_vertices);
   GridGenerator::subdivided_hyper_rectangle(*triangulation, {mesh.radial_cells, mesh.angular_cells},
                                             Point<2>(scene.inner_radius, numbers::PI / 2),
                                             Point<2>(scene.outer_radius, 5 * numbers::PI / 2),

@@ -50,7 +50,7 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
       if (face->at_boundary() && face->boundary_id() == surface_id) {
         face_values.reinit(cell, face);
         cell->get_dof_indices(dofs);
-        faces.emplace_back();
+        faces.push_back({cell, 0, 0, {}});
         const double turn =
             2 * numbers::PI * std::floor((face->center()[1] - middle) / (2 * numbers::PI) + 0.5);
         faces.back().begin = face_values.quadrature_point(0)[1] - turn;
@@ -72,6 +72,9 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
             }
       }
 
+  std::sort(faces.begin(), faces.end(), [](const auto& left, const auto& right) {
+    return left.cell->center()[1] < right.cell->center()[1];
+  });
   for (const auto& [dof, node] : nodes)
     surface.push_back(node);
   std::sort(surface.begin(), surface.end(),

@@ -21,6 +21,10 @@ std::function<double(double)> flat_road(double outer_radius, double distance) {
   return [=](double z) { return -outer_radius - distance / std::sin(z); };
 }
 
+std::function<double(double)> flat_road_slope(double distance) {
+  return [=](double z) { return distance * std::cos(z) / (std::sin(z) * std::sin(z)); };
+}
+
 namespace {
 
 template <typename... Parts>
@@ -71,6 +75,18 @@ void check_road(const Parameters& parameters) {
                 b));
 }
 
+/// What needs the certificate is refused without it.
+void check_certificate(const Parameters& parameters) {
+  if (parameters.certificate.error_bound)
+    return;
+  if (parameters.mesh.wanted_relative_error > 0)
+    throw BadInput(refusal(parameters.settings, "Mesh", "Wanted relative error",
+                           "it is judged by the certificate; set Certificate/Error bound = true"));
+  if (parameters.mesh.indicator == Indicator::certificate)
+    throw BadInput(refusal(parameters.settings, "Mesh", "Indicator",
+                           "it needs the certificate; set Certificate/Error bound = true"));
+}
+
 /// Keeps what is written to std::cerr while it lives: deal.II prints the parser's complaints there.
 class CapturedErrors {
 public:
@@ -94,16 +110,17 @@ private:
   std::streambuf* original;
 };
 
-/// f as a function of r and z; empty for the number 0, so that no load is ever assembled.
-std::function<double(double, double)> parse_force(const Parameters& parameters) {
+/// f when it is given as a number.
+std::optional<double> constant_force(const Parameters& parameters) {
   const std::string& expression = parameters.cylinder.radial_force;
   char* end = nullptr;
   const double number = std::strtod(expression.c_str(), &end);
-  if (*end == '\0' && number == 0)
-    return {};
-  if (*end == '\0' && std::isfinite(number))
-    return [number](double, double) { return number; };
+  return *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
 
+/// f as a function of r and z.
+std::function<double(double, double)> parse_force(const Parameters& parameters) {
+  const std::string& expression = parameters.cylinder.radial_force;
   auto parser = std::make_shared<FunctionParser<2>>(1);
   const auto force = [parser](double r, double z) { return parser->value(Point<2>(r, z)); };
   double middle = 0;
@@ -126,6 +143,7 @@ std::function<double(double, double)> parse_force(const Parameters& parameters) 
 } // namespace
 
 Scene make_scene(const Parameters& parameters) {
+  check_certificate(parameters);
   check_cylinder(parameters);
   check_road(parameters);
 
@@ -133,8 +151,13 @@ Scene make_scene(const Parameters& parameters) {
   scene.inner_radius = parameters.cylinder.inner_radius;
   scene.outer_radius = parameters.cylinder.outer_radius;
   scene.angular_velocity = parameters.cylinder.angular_velocity;
-  scene.force = parse_force(parameters);
+  scene.uniform_force = constant_force(parameters);
+  if (!scene.uniform_force)
+    scene.force = parse_force(parameters);
+  else if (*scene.uniform_force != 0) // for 0 no load is ever assembled
+    scene.force = [f = *scene.uniform_force](double, double) { return f; };
   scene.road = flat_road(scene.outer_radius, parameters.road.distance);
+  scene.road_slope = flat_road_slope(parameters.road.distance);
 
   if (const auto& zone = parameters.road.contact_zone) {
     scene.zone_begin = zone->first;

@@ -3,6 +3,8 @@
 #include "assembly.h"
 #include "direct_solver.h"
 #include "errors.h"
+#include "refinement.h"
+#include "residual_indicator.h"
 #include "ring_mesh.h"
 
 #include <deal.II/grid/grid_tools.h>
@@ -10,7 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <sstream>
 
 namespace rollwave {
 
@@ -69,6 +73,35 @@ std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactPr
   return rows;
 }
 
+/// The pressure of the mesh before at the nodes of another: linear between its nodes, zero outside
+/// of the contact. Without entries when there was no mesh before.
+Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNode>& nodes) {
+  const auto& rows = before.contact_rows;
+  if (rows.empty())
+    return {};
+  Vector<double> pressure(nodes.size());
+  if (!before.patch.ends)
+    return pressure;
+  for (unsigned int i = 0; i < nodes.size(); ++i) {
+    const double z = nodes[i].angle;
+    if (z < before.patch.ends->first || z > before.patch.ends->second)
+      continue;
+    const auto right =
+        std::lower_bound(rows.begin(), rows.end(), z,
+                         [](const ContactRow& row, double at) { return row.angle < at; });
+    if (right == rows.end())
+      pressure(i) = rows.back().pressure;
+    else if (right == rows.begin() || right->angle == z)
+      pressure(i) = right->pressure;
+    else {
+      const auto left = right - 1;
+      const double t = (z - left->angle) / (right->angle - left->angle);
+      pressure(i) = (1 - t) * left->pressure + t * right->pressure;
+    }
+  }
+  return pressure;
+}
+
 std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVector& field) {
   std::vector<SurfacePoint> points;
   for (const SurfaceNode& node : space.surface_nodes())
@@ -76,17 +109,16 @@ std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVe
   return points;
 }
 
-} // namespace
+/// The discrete problem and its solution on one mesh.
+struct MeshSolution {
+  ContactProblem problem;
+  ContactSolution contact;
+};
 
-Solution simulate(const Scene& scene, const Parameters& parameters) {
-  Solution solution;
+/// Solves on the mesh of @p solution and fills in all but the certificate.
+MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, Solution& solution) {
   Result& result = solution.result;
   Work& work = result.work;
-
-  {
-    const Work::Phase phase(work, "mesh");
-    solution.triangulation = make_ring_mesh(scene, parameters);
-  }
   {
     const Work::Phase phase(work, "space");
     solution.space =
@@ -106,7 +138,8 @@ Solution simulate(const Scene& scene, const Parameters& parameters) {
   ContactSolution contact;
   {
     const Work::Phase phase(work, "contact");
-    contact = solve_contact(solver, problem, parameters);
+    contact =
+        solve_contact(solver, problem, parameters, carry_pressure(result, space.contact_nodes()));
   }
   solution.displacement = solver.displacement_field(contact.state);
 
@@ -119,9 +152,106 @@ Solution simulate(const Scene& scene, const Parameters& parameters) {
   result.residuals = measure_residuals(space, problem, contact, stiffness_times_u, load);
   result.contact_rows = tabulate_contact(space, problem, contact.state);
   result.surface = tabulate_surface(space, solution.displacement);
-  result.history = std::move(contact.history);
+  result.history = contact.history;
   result.rho = contact.rho;
   result.remark = contact.remark;
+  result.cycles.push_back({result.mesh.cells,
+                           result.mesh.dofs,
+                           static_cast<unsigned int>(result.history.size()),
+                           0,
+                           {}});
+  return {problem, contact};
+}
+
+void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
+  solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
+                                 solution.displacement, solution.result.work);
+  const Certificate& certificate = *solution.certificate;
+  solution.result.certified = {certificate.energy_norm, certificate.relative,
+                               certificate.lower_bound, certificate.upper_bound,
+                               certificate.norm_squared};
+  solution.result.cycles.back().certified = certificate.relative;
+}
+
+/// eta_K of each active cell.
+std::vector<double> indicate(Indicator indicator, const Scene& scene, const MeshSolution& on_mesh,
+                             Solution& solution) {
+  if (indicator == Indicator::certificate)
+    return solution.certificate->cell_bounds;
+  const Work::Phase phase(solution.result.work, "indicator");
+  return indicator == Indicator::kelly ? kelly_indicator(*solution.space, solution.displacement)
+                                       : residual_indicator(*solution.space, scene, on_mesh.problem,
+                                                            on_mesh.contact, solution.displacement);
+}
+
+/// Refines where @p indicators are large. False, and the mesh is left, when it would get too large
+/// or nothing is marked.
+bool refine(const std::vector<double>& indicators, const Parameters& parameters,
+            Solution& solution) {
+  const Work::Phase phase(solution.result.work, "mesh");
+  auto& triangulation = *solution.triangulation;
+  const unsigned int n_cells = mark_cells(triangulation, indicators, parameters.mesh.marking,
+                                          parameters.mesh.marked_fraction);
+  const double unknowns =
+      static_cast<double>(n_cells) * parameters.mesh.degree * parameters.mesh.degree;
+  if (n_cells == triangulation.n_active_cells() || unknowns > parameters.mesh.most_unknowns)
+    return false;
+  solution.certificate.reset();
+  solution.result.certified.reset();
+  solution.space.reset();
+  triangulation.execute_coarsening_and_refinement();
+  return true;
+}
+
+std::string shortfall_text(const Parameters& parameters, double reached) {
+  std::ostringstream text;
+  text << "the certified relative error is " << reached << ", wanted "
+       << parameters.mesh.wanted_relative_error
+       << "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less";
+  return text.str();
+}
+
+} // namespace
+
+Solution simulate(const Scene& scene, const Parameters& parameters) {
+  const auto& mesh = parameters.mesh;
+  const bool certifies = parameters.certificate.error_bound;
+  const bool wants_error = mesh.wanted_relative_error > 0;
+  const unsigned int most_cycles =
+      mesh.adaptive_cycles.value_or(wants_error ? std::numeric_limits<unsigned int>::max() : 0);
+  Indicator indicator = mesh.indicator;
+  if (indicator == Indicator::automatic)
+    indicator = certifies ? Indicator::certificate : Indicator::residual;
+
+  Solution solution;
+  {
+    const Work::Phase phase(solution.result.work, "mesh");
+    solution.triangulation = make_ring_mesh(scene, parameters);
+  }
+  for (unsigned int cycle = 0;; ++cycle) {
+    const MeshSolution on_mesh = solve_on_mesh(scene, parameters, solution);
+    Result& result = solution.result;
+    const bool is_last = cycle == most_cycles;
+    if (certifies && (is_last || wants_error || indicator == Indicator::certificate))
+      certify_solution(scene, on_mesh, solution);
+    if (wants_error && result.certified->relative <= mesh.wanted_relative_error)
+      break;
+    if (!is_last) {
+      const std::vector<double> indicators = indicate(indicator, scene, on_mesh, solution);
+      if (refine(indicators, parameters, solution)) {
+        double squared = 0;
+        for (const double eta : indicators)
+          squared += eta * eta;
+        result.cycles.back().indicated = std::sqrt(squared);
+        continue;
+      }
+      if (certifies && !result.certified)
+        certify_solution(scene, on_mesh, solution);
+    }
+    if (wants_error)
+      result.shortfall = shortfall_text(parameters, result.certified->relative);
+    break;
+  }
   return solution;
 }
 

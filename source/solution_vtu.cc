@@ -23,11 +23,10 @@ public:
 
 private:
   const std::vector<DataOutBase::Patch<2>>& get_patches() const override { return patches; }
-  std::vector<std::string> get_dataset_names() const override {
-    return {"displacement", "pressure"};
-  }
+  std::vector<std::string> get_dataset_names() const override { return names; }
 
   std::vector<DataOutBase::Patch<2>> patches;
+  std::vector<std::string> names = {"displacement", "pressure"};
 };
 
 /// lambda on the surface, for each degree of freedom; not a number elsewhere.
@@ -51,6 +50,10 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
                      update_quadrature_points);
   const std::vector<float> pressure = nodal_pressure(solution);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  if (solution.certificate)
+    names.push_back("certified_error");
+  // Behind the data the places of the points
+  const unsigned int x_row = names.size(), y_row = x_row + 1;
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     values.reinit(cell);
@@ -60,7 +63,7 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(4, dofs.size());
+    patch.data.reinit(y_row + 1, dofs.size());
     for (unsigned int i = 0; i < dofs.size(); ++i) {
       const unsigned int node = numbering[i];
       const double u = solution.displacement(dofs[node]);
@@ -74,8 +77,10 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
             dof = entries->front().first;
       patch.data(0, i) = u;
       patch.data(1, i) = pressure[dof];
-      patch.data(2, i) = r * std::cos(z);
-      patch.data(3, i) = r * std::sin(z);
+      if (solution.certificate)
+        patch.data(2, i) = solution.certificate->cell_bounds[cell->active_cell_index()];
+      patch.data(x_row, i) = r * std::cos(z);
+      patch.data(y_row, i) = r * std::sin(z);
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);

@@ -23,34 +23,43 @@ std::vector<int> number_unknowns(const RingSpace& space) {
   return unknown_of_dof;
 }
 
-LowerTriplets assemble_triplets(const RingSpace& space, const Scene& scene,
-                                const std::vector<int>& unknown_of_dof) {
-  LowerTriplets triplets;
-  const unsigned int dofs_per_cell = space.dof_handler().get_fe().n_dofs_per_cell();
+TripletAssembler::TripletAssembler(const RingSpace& space,
+                                   const AffineConstraints<double>& constraints,
+                                   const std::vector<int>& unknown_of_dof)
+    : constraints(constraints), unknown_of_dof(unknown_of_dof),
+      expansion(space.dof_handler().get_fe().n_dofs_per_cell()) {
   const std::size_t expected = space.dof_handler().get_triangulation().n_active_cells() *
-                               (dofs_per_cell * (dofs_per_cell + 1) / 2);
+                               (expansion.size() * (expansion.size() + 1) / 2);
   triplets.rows.reserve(expected);
   triplets.columns.reserve(expected);
   triplets.values.reserve(expected);
+}
 
-  std::vector<std::vector<std::pair<int, double>>> expansion(dofs_per_cell);
+void TripletAssembler::add(const std::vector<types::global_dof_index>& dofs,
+                           const FullMatrix<double>& cell_matrix) {
+  for (unsigned int i = 0; i < dofs.size(); ++i) {
+    expansion[i].clear();
+    if (unknown_of_dof[dofs[i]] >= 0)
+      expansion[i].emplace_back(unknown_of_dof[dofs[i]], 1.);
+    else
+      for (const auto& [dof, weight] : *constraints.get_constraint_entries(dofs[i]))
+        expansion[i].emplace_back(unknown_of_dof[dof], weight);
+  }
+  for (unsigned int i = 0; i < dofs.size(); ++i)
+    for (unsigned int j = 0; j < dofs.size(); ++j)
+      for (const auto& [row, row_weight] : expansion[i])
+        for (const auto& [column, column_weight] : expansion[j])
+          if (row >= column)
+            triplets.add(row, column, row_weight * column_weight * cell_matrix(i, j));
+}
+
+LowerTriplets assemble_triplets(const RingSpace& space, const Scene& scene,
+                                const std::vector<int>& unknown_of_dof) {
+  TripletAssembler assembler(space, space.constraints(), unknown_of_dof);
   assemble_stiffness(space, scene, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
-    for (unsigned int i = 0; i < dofs_per_cell; ++i) {
-      expansion[i].clear();
-      if (unknown_of_dof[dofs[i]] >= 0)
-        expansion[i].emplace_back(unknown_of_dof[dofs[i]], 1.);
-      else
-        for (const auto& [dof, weight] : *space.constraints().get_constraint_entries(dofs[i]))
-          expansion[i].emplace_back(unknown_of_dof[dof], weight);
-    }
-    for (unsigned int i = 0; i < dofs_per_cell; ++i)
-      for (unsigned int j = 0; j < dofs_per_cell; ++j)
-        for (const auto& [row, row_weight] : expansion[i])
-          for (const auto& [column, column_weight] : expansion[j])
-            if (row >= column)
-              triplets.add(row, column, row_weight * column_weight * cell_matrix(i, j));
+    assembler.add(dofs, cell_matrix);
   });
-  return triplets;
+  return std::move(assembler.triplets);
 }
 
 } // namespace rollwave

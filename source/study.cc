@@ -10,6 +10,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <ostream>
 #include <sstream>
@@ -41,29 +42,56 @@ Parameters run_parameters(const Parameters& parameters, const std::vector<Settin
   return read_parameters(settings);
 }
 
-/// Runs that differ in their mesh only share their exact solution.
-class KnownAnswers {
+/// The adaptive solution with quadratic elements that errors are measured against where no exact
+/// one is known.
+Reference compute_reference(const Scene& scene, const Parameters& parameters) {
+  std::vector<Setting> settings = parameters.settings;
+  const auto set = [&](const std::string& section, const std::string& key,
+                       const std::string& value) {
+    settings.push_back({section, key, value, "reference of the study"});
+  };
+  set("Mesh", "Degree", "2");
+  set("Mesh", "Global refinements", "0");
+  set("Mesh", "Adaptive cycles", "1000");
+  set("Mesh", "Wanted relative error", "0");
+  set("Mesh", "Indicator", "residual");
+  set("Mesh", "Marking", "bulk");
+  set("Mesh", "Most unknowns", std::to_string(parameters.study.reference_unknowns));
+  set("Contact", "Method", "active set");
+  set("Certificate", "Error bound", "true");
+  const Solution solution = simulate(scene, read_parameters(settings));
+  std::ostringstream name;
+  name << "an adaptive solution with " << solution.result.mesh.dofs
+       << " unknowns, its own relative error certified to " << std::setprecision(2)
+       << solution.result.certified->relative;
+  return discrete_reference(scene, *solution.space, solution.result, name.str());
+}
+
+/// Runs that differ in their mesh only share their reference.
+class References {
 public:
-  const std::optional<ExactSolution>& find(const Scene& scene, const Parameters& parameters) {
+  const Reference& find(const Scene& scene, const Parameters& parameters) {
     const auto key = std::tuple(scene.inner_radius, scene.outer_radius, scene.angular_velocity,
                                 parameters.road.distance, parameters.cylinder.radial_force,
                                 scene.zone_begin, scene.zone_end);
-    const auto known = answers.find(key);
-    return known != answers.end()
-               ? known->second
-               : answers.emplace(key, find_exact_solution(scene, parameters)).first->second;
+    const auto known = references.find(key);
+    if (known != references.end())
+      return known->second;
+    const auto exact = find_exact_solution(scene, parameters);
+    return references
+        .emplace(key, exact ? exact_reference(*exact) : compute_reference(scene, parameters))
+        .first->second;
   }
 
 private:
-  std::map<std::tuple<double, double, double, double, std::string, double, double>,
-           std::optional<ExactSolution>>
-      answers;
+  std::map<std::tuple<double, double, double, double, std::string, double, double>, Reference>
+      references;
 };
 
-/// The figures of the runs that an earlier call has finished; otherwise makes the directory that of
+/// The runs that an earlier call has finished; otherwise makes the directory that of
 /// this study.
-std::vector<std::map<std::string, double>> finished_runs(const Parameters& parameters,
-                                                         const std::filesystem::path& directory) {
+std::vector<StudyRun> finished_runs(const Parameters& parameters,
+                                    const std::filesystem::path& directory) {
   std::ostringstream own, earlier;
   write_parameters(own, parameters);
   earlier << std::ifstream(directory / "parameters.prm").rdbuf();
@@ -90,7 +118,7 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
 
   const auto finished = finished_runs(parameters, directory);
   std::vector<StudyRun> runs;
-  KnownAnswers answers;
+  References references;
   for (const auto& settings : varied) {
     StudyRun run;
     run.settings = settings;
@@ -101,7 +129,8 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
       progress << "  " << setting.path() << " = " << setting.value;
     if (runs.size() < finished.size()) {
       progress << "  (done before)" << std::endl;
-      run.figures = finished[runs.size()];
+      run.figures = finished[runs.size()].figures;
+      run.reference = finished[runs.size()].reference;
       runs.push_back(std::move(run));
       continue;
     }
@@ -110,10 +139,13 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
       const Parameters own = run_parameters(parameters, settings);
       const Scene scene = make_scene(own);
       Solution solution = simulate(scene, own);
-      if (parameters.study.true_errors)
-        if (const auto exact = answers.find(scene, own))
-          solution.result.errors =
-              measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+      if (parameters.study.true_errors) {
+        const Reference& reference = references.find(scene, own);
+        solution.result.errors =
+            measure_true_errors(*solution.space, solution.displacement, solution.result,
+                                solution.certificate, reference);
+        run.reference = reference.name;
+      }
       run.figures = figures_of(solution.result);
     } catch (const NotSolved& failure) {
       progress << "  not solved: " << failure.what() << std::endl;

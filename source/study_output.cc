@@ -26,6 +26,12 @@ bool any(const std::vector<StudyRun>& runs, bool (*has)(const StudyRun&)) {
 bool has_published_steps(const StudyRun& run) {
   return run.published_steps.has_value();
 }
+bool has_certificate(const StudyRun& run) {
+  return run.figure("certified_relative").has_value();
+}
+bool has_linear_iterations(const StudyRun& run) {
+  return run.figure("linear_iterations").value_or(0) > 0;
+}
 bool has_errors(const StudyRun& run) {
   return run.figure("error_relative").has_value();
 }
@@ -65,6 +71,8 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
     };
     add("unknowns", "dofs", 9);
     add("steps", "contact_steps", 9);
+    if (any(runs, has_linear_iterations))
+      add("linear iterations", "linear_iterations", 9);
     if (with_published)
       table.add_value("published",
                       run.published_steps ? std::to_string(*run.published_steps) : "-");
@@ -84,6 +92,13 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
       add("F", "force", 9);
       add("J", "energy", 9);
       add("half-width", "half_width", 9);
+    }
+    if (any(runs, has_certificate)) {
+      add("certified", "certified_relative", 3);
+      if (with_errors) {
+        add("effectivity", "effectivity", 3);
+        add("bound/error", "bound_over_error", 3);
+      }
     }
     add("seconds", "seconds", 3);
   }
@@ -134,9 +149,15 @@ std::optional<double> number_of(const std::string& text) {
 } // namespace
 
 void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
-  if (any(runs, has_errors))
-    out << "Errors against the semi-analytic solution: energy norm relative, the others "
-           "absolute.\n";
+  std::set<std::string> references;
+  for (const StudyRun& run : runs)
+    if (has_errors(run))
+      references.insert(run.reference);
+  for (const std::string& reference : references)
+    out << "Errors against " << reference << ": energy norm relative, the others absolute.\n";
+  if (any(runs, has_certificate))
+    out << "Certified: the guaranteed bound of the relative error in the energy norm of the "
+           "feasible displacement.\n";
   make_table(runs).write_text(out, TableHandler::table_with_headers);
   print_orders(out, runs);
 }
@@ -196,6 +217,10 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     add_plot("study-unknowns.svg", {"unknowns", label, unknowns, error, {}, true, over_unknowns});
     add_plot("study-time.svg", {"seconds", label, figure("seconds"), error, {}, true, {}});
     add_plot("study-steps.svg", {"unknowns", "contact steps", unknowns, steps, {}, true, {}});
+    if (any(runs, has_linear_iterations))
+      add_plot(
+          "study-iterations.svg",
+          {"unknowns", "linear iterations", unknowns, figure("linear_iterations"), {}, true, {}});
   }
   return written;
 }

@@ -17,18 +17,28 @@ const std::vector<std::string>& figure_names() {
                                                  "cells",
                                                  "dofs",
                                                  "h_max",
+                                                 "cycles",
                                                  "contact_steps",
+                                                 "linear_iterations",
                                                  "force",
                                                  "energy",
                                                  "half_width",
                                                  "peak_pressure",
                                                  "error_energy_norm",
                                                  "error_relative",
+                                                 "error_l2_norm",
                                                  "error_pressure",
                                                  "error_force",
                                                  "error_energy",
                                                  "error_half_width",
                                                  "expected_order",
+                                                 "error_feasible",
+                                                 "certified_energy_norm",
+                                                 "certified_relative",
+                                                 "energy_lower_bound",
+                                                 "energy_upper_bound",
+                                                 "effectivity",
+                                                 "bound_over_error",
                                                  "seconds_mesh",
                                                  "seconds_space",
                                                  "seconds_assembly",
@@ -37,15 +47,16 @@ const std::vector<std::string>& figure_names() {
                                                  "seconds_contact",
                                                  "seconds_back-substitution",
                                                  "seconds_measurement",
+                                                 "seconds_indicator",
+                                                 "seconds_certificate",
                                                  "seconds",
-                                                 "peak_memory_mib",
-                                                 "error_l2_norm"};
+                                                 "peak_memory_mib"};
   return names;
 }
 
 /// The end of the header, which is the same for all studies.
 std::string figure_header() {
-  std::string header = "solved,published_steps";
+  std::string header = "solved,published_steps,reference";
   for (const std::string& name : figure_names())
     header += "," + name;
   return header;
@@ -70,7 +81,9 @@ std::map<std::string, double> figures_of(const Result& result) {
                                            {"cells", result.mesh.cells},
                                            {"dofs", result.mesh.dofs},
                                            {"h_max", result.mesh.h_max},
+                                           {"cycles", result.cycles.size()},
                                            {"contact_steps", result.history.size()},
+                                           {"linear_iterations", result.work.linear_iterations},
                                            {"force", result.patch.force},
                                            {"energy", result.energy.value},
                                            {"half_width", result.patch.half_width()},
@@ -88,6 +101,18 @@ std::map<std::string, double> figures_of(const Result& result) {
     figures["error_energy"] = result.errors->energy;
     figures["error_half_width"] = result.errors->half_width;
     figures["expected_order"] = result.errors->expected_order;
+    if (result.errors->feasible_energy_norm) {
+      figures["error_feasible"] = *result.errors->feasible_energy_norm;
+      figures["effectivity"] = *result.errors->effectivity;
+      figures["bound_over_error"] =
+          result.certified->energy_norm / *result.errors->feasible_energy_norm;
+    }
+  }
+  if (result.certified) {
+    figures["certified_energy_norm"] = result.certified->energy_norm;
+    figures["certified_relative"] = result.certified->relative;
+    figures["energy_lower_bound"] = result.certified->lower_bound;
+    figures["energy_upper_bound"] = result.certified->upper_bound;
   }
   return figures;
 }
@@ -106,6 +131,7 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
     out << run.is_solved() << ',';
     if (run.published_steps)
       out << *run.published_steps;
+    out << ",\"" << run.reference << '"';
     for (const std::string& name : figure_names()) {
       out << ',';
       if (const auto figure = run.figure(name))
@@ -116,30 +142,31 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
   return out.str();
 }
 
-std::vector<std::map<std::string, double>> read_study_csv(const std::filesystem::path& file) {
+std::vector<StudyRun> read_study_csv(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string line;
-  std::vector<std::map<std::string, double>> rows;
+  std::vector<StudyRun> runs;
   std::getline(in, line);
   const std::string expected = figure_header();
   if (line.size() < expected.size() ||
       line.compare(line.size() - expected.size(), expected.size(), expected) != 0)
-    return rows;
+    return runs;
   while (std::getline(in, line)) {
     // Figures are the last fields, and have no commas; the varied values before them may.
-    std::vector<std::string> fields;
+    StudyRun run;
     std::size_t end = line.size();
-    for (unsigned int i = 0; i < figure_names().size(); ++i) {
+    for (auto name = figure_names().rbegin(); name != figure_names().rend(); ++name) {
       const auto comma = line.rfind(',', end - 1);
-      fields.insert(fields.begin(), line.substr(comma + 1, end - comma - 1));
+      const std::string field = line.substr(comma + 1, end - comma - 1);
+      if (!field.empty())
+        run.figures[*name] = std::strtod(field.c_str(), nullptr);
       end = comma;
     }
-    rows.emplace_back();
-    for (unsigned int i = 0; i < fields.size(); ++i)
-      if (!fields[i].empty())
-        rows.back()[figure_names()[i]] = std::strtod(fields[i].c_str(), nullptr);
+    const auto quote = line.rfind('"', end - 2);
+    run.reference = line.substr(quote + 1, end - quote - 2);
+    runs.push_back(std::move(run));
   }
-  return rows;
+  return runs;
 }
 
 } // namespace rollwave

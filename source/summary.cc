@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace rollwave {
 
 std::string summary_json(const Scene& scene, const Parameters& parameters, const Result& result) {
@@ -36,23 +38,45 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                      {"peak_pressure", patch.peak_pressure},
                      {"active_nodes", patch.active_nodes}};
   json["energy"] = {{"value", result.energy.value}, {"norm_squared", result.energy.norm_squared}};
-  if (result.errors)
-    json["error"] = {{"exact_energy_norm", result.errors->energy_norm},
-                     {"exact_relative", result.errors->relative_energy_norm},
-                     {"exact_l2_norm", result.errors->l2_norm},
-                     {"exact_pressure", result.errors->pressure},
-                     {"exact_force", result.errors->force},
-                     {"exact_energy", result.errors->energy},
-                     {"exact_half_width", result.errors->half_width}};
+  if (result.certified) {
+    json["energy"]["lower_bound"] = result.certified->lower_bound;
+    json["energy"]["upper_bound"] = result.certified->upper_bound;
+    json["error"]["certified_energy_norm"] = result.certified->energy_norm;
+    json["error"]["certified_relative"] =
+        number_or_null(std::isfinite(result.certified->relative), result.certified->relative);
+  }
+  if (result.errors) {
+    Json& error = json["error"];
+    error["exact_energy_norm"] = result.errors->energy_norm;
+    error["exact_relative"] = result.errors->relative_energy_norm;
+    error["exact_l2_norm"] = result.errors->l2_norm;
+    error["exact_pressure"] = result.errors->pressure;
+    error["exact_force"] = result.errors->force;
+    error["exact_energy"] = result.errors->energy;
+    error["exact_half_width"] = result.errors->half_width;
+    if (result.errors->feasible_energy_norm) {
+      error["exact_feasible_energy_norm"] = *result.errors->feasible_energy_norm;
+      error["effectivity"] = *result.errors->effectivity;
+    }
+  }
   json["residuals"] = {{"equilibrium", result.residuals.equilibrium},
                        {"penetration", result.residuals.penetration},
                        {"negative_pressure", result.residuals.negative_pressure},
                        {"complementarity", result.residuals.complementarity}};
 
+  for (const CycleFigures& cycle : result.cycles)
+    json["cycles"].push_back(
+        {{"cells", cycle.cells},
+         {"dofs", cycle.dofs},
+         {"contact_steps", cycle.contact_steps},
+         {"indicated_error", cycle.indicated},
+         {"certified_relative", number_or_null(cycle.certified && std::isfinite(*cycle.certified),
+                                               cycle.certified.value_or(0))}});
+
   const bool is_uzawa = parameters.contact.method == ContactMethod::uzawa;
   json["iterations"] = {{"method", is_uzawa ? "uzawa" : "active set"},
                         {"contact", result.history.size()},
-                        {"linear", 0}};
+                        {"linear", result.work.linear_iterations}};
   if (is_uzawa)
     json["iterations"]["rho"] = result.rho;
   if (!result.remark.empty())

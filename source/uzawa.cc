@@ -75,7 +75,7 @@ double largest_compliance(StiffnessSolver& solver, const ContactProblem& problem
 }
 
 ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
-                      const UzawaSettings& settings) {
+                      const UzawaSettings& settings, const Vector<double>& start) {
   const unsigned int n = problem.size();
   const std::vector<bool> none(n, false);
   const double rho = settings.rho
@@ -88,9 +88,14 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
   auto& [displacement, force] = solution.state;
   displacement.reinit(n);
   force.reinit(n);
+  Vector<double> p(n);
+  for (unsigned int i = 0; i < start.size(); ++i) {
+    p(i) = -start(i);
+    force(i) = problem.weight(i) * start(i);
+    solution.active[i] = start(i) > 0;
+  }
   solver.solve(none, solution.state);
 
-  Vector<double> p(n);
   double smallest = std::numeric_limits<double>::max();
   unsigned int steps_without_progress = 0;
   while (solution.history.size() < settings.most_steps) {

@@ -20,7 +20,8 @@ namespace {
 
 TrueErrors errors_of(const Parameters& parameters, const ExactSolution& exact) {
   const Solution solution = simulate(make_scene(parameters), parameters);
-  return measure_true_errors(*solution.space, solution.displacement, solution.result, exact);
+  return measure_true_errors(*solution.space, solution.displacement, solution.result,
+                             solution.certificate, exact_reference(exact));
 }
 
 struct OrderCase {
@@ -89,7 +90,8 @@ TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
   ASSERT_TRUE(exact);
   const Solution solution = simulate(scene, parameters);
   const TrueErrors errors =
-      measure_true_errors(*solution.space, solution.displacement, solution.result, *exact);
+      measure_true_errors(*solution.space, solution.displacement, solution.result,
+                          solution.certificate, exact_reference(*exact));
 
   const ExactField field({0.5, 1, 0.5, 0.8, 0}, *exact, 400);
   const auto& space = *solution.space;

@@ -1,0 +1,58 @@
+#ifndef ROLLWAVE_CERTIFICATE_H
+#define ROLLWAVE_CERTIFICATE_H
+
+#include "feasible_trace.h"
+
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+class Work;
+
+/**
+ * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
+ * the whole contact zone, and a flux tau in equilibrium with the force and with a contact pressure
+ * lambda >= 0 in the zone,
+ *
+ *     eta^2 = int r [ (tau_z - alpha v_z)^2 / alpha + (tau_r - v_r)^2 ] dr dz
+ *             + 2 b int lambda (phi - v) dz
+ *
+ * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2.
+ *
+ * v is the discrete displacement but for the cells at the surface, where the correction c(z) of
+ * FeasibleTrace is added, fading linearly to the inner side of the cell. tau comes from
+ * solve_dual_potential(), in terms of which the first integral is
+ *
+ *     int [ r alpha (psi_s + v_z)^2 + r ((G - psi_z)/r - v_r)^2 ] dr dz.
+ *
+ * A force f that is not uniform enters by an interpolant f_0 (ForceColumns), and is seen by Gauss'
+ * rules at their points only. With delta = ||f - f_0|| + ||f - f_h||, f_h interpolating f at these
+ * points, both taken on finer points in the norm of int r w^2 dr dz, Friedrichs' inequality
+ *
+ *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   |w|^2 = a(w, w)
+ *
+ * gives a(v - u, v - u)^(1/2) <= C delta + (C^2 delta^2 + eta^2)^(1/2), and the bounds of J open
+ * accordingly.
+ *
+ * All integrals are taken by Gauss' rules with at least degree + 2 points on each cell: the bound
+ * assumes that these resolve phi, and that ||f - f_h|| is seen by four times as many points.
+ */
+struct Certificate {
+  double upper_bound;  ///< J(v) >= J(u)
+  double lower_bound;  ///< of J(u)
+  double norm_squared; ///< a(v, v)
+  double energy_norm;  ///< of a(v - u, v - u)^(1/2), an upper bound
+  double relative;     ///< of the same over a(u, u)^(1/2), an upper bound; infinite if not known
+  std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
+  FeasibleTrace trace;             ///< v on the surface
+};
+
+/// Certifies the solution @p contact with the displacement @p field.
+/// @throws NotSolved when memory is short.
+Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
+                    const ContactSolution& contact, const FieldVector& field, Work& work);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,47 @@
+#ifndef ROLLWAVE_DUAL_POTENTIAL_H
+#define ROLLWAVE_DUAL_POTENTIAL_H
+
+#include "force_columns.h"
+#include "radial_shapes.h"
+#include "ring_space.h"
+
+namespace rollwave {
+
+struct Scene;
+class Work;
+
+/// A contact pressure on one edge, linear in the coordinate t from 0 at its begin to 1 at its end:
+/// lambda(t) = mean + slope (t - 1/2).
+struct EdgePressure {
+  double mean;
+  double slope;
+
+  double operator()(double t) const { return mean + slope * (t - 0.5); }
+};
+
+/**
+ * The potential psi of a flux tau that balances the force and a contact pressure lambda,
+ *
+ *     r tau_z = psi_r,   r tau_r = G - psi_z,   G(r, z) = int_r^b rho f drho,   psi_z = b lambda on
+ *     r = b,
+ *
+ * so that d_z tau_z + (1/r) d_r (r tau_r) + f = 0 whatever psi is. Among the functions that are
+ * polynomials in s(r) and z on each cell it minimises
+ *
+ *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (G - psi_z)^2 / r dr dz.
+ *
+ * psi is prescribed on r = b up to a constant, free on the hub, and grows by b int lambda dz in a
+ * period. Its nodal values are returned, both sides of the seam having their own.
+ *
+ * @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
+ * @param columns nullptr when there is no force
+ * @throws NotSolved when memory is short
+ */
+FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
+                                 RadialShapesOfMesh& shapes,
+                                 const std::vector<EdgePressure>& pressures, ForceColumns* columns,
+                                 Work& work);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,56 @@
+#ifndef ROLLWAVE_RADIAL_SHAPES_H
+#define ROLLWAVE_RADIAL_SHAPES_H
+
+#include <deal.II/base/polynomial.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/**
+ * One-dimensional shape functions on the radial interval [begin, end] of a cell at the points of a
+ * quadrature rule: Lagrange polynomials L_i with nodes at Gauss-Lobatto points, once as polynomials
+ * in r (displacements), once in s(r) (potentials, see depth_between()), i counting outwards. Entry
+ * (q, i) of a matrix is that of the point q.
+ */
+struct RadialShapes {
+  double begin;
+  double end;
+  std::vector<double> r;
+  std::vector<double> weight; ///< of the rule for dr
+  std::vector<double> alpha;
+  dealii::FullMatrix<double> value;        ///< L_i((r - begin)/(end - begin))
+  dealii::FullMatrix<double> derivative;   ///< d/dr of it
+  dealii::FullMatrix<double> s_value;      ///< L_i(t), t = (s(begin) - s(r))/s_length
+  dealii::FullMatrix<double> s_derivative; ///< d/ds of it
+  double s_length;                         ///< s(begin) - s(end)
+};
+
+/// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
+class RadialShapesOfMesh {
+public:
+  /// Gauss' rule with @p n_points points on pieces whose ends have the ratio 2 at most.
+  RadialShapesOfMesh(const Scene& scene, unsigned int degree, unsigned int n_points);
+
+  const RadialShapes& on(double begin, double end);
+
+private:
+  RadialShapes make(double begin, double end) const;
+
+  const Scene& scene;
+  std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
+  unsigned int n_points;
+  std::map<std::pair<double, double>, RadialShapes> known;
+};
+
+/// Lagrange polynomials on [0, 1] with nodes at the Gauss-Lobatto points, as the elements have.
+std::vector<dealii::Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,57 @@
+#ifndef ROLLWAVE_REFERENCE_H
+#define ROLLWAVE_REFERENCE_H
+
+#include "exact_solution.h"
+#include "result.h"
+#include "ring_space.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// A continuous function w on r = b in pieces that are smooth, by increasing angle; the angles are
+/// those of SurfaceFace.
+struct SurfacePiece {
+  double begin;
+  double end;
+  std::function<double(double z)> value;
+};
+using SurfaceFunction = std::vector<SurfacePiece>;
+
+/// What errors are measured against: the solution u of a scene, known much better than the one in
+/// question.
+struct Reference {
+  std::string name; ///< what it is, as in "against NAME"
+  double force;
+  double energy;
+  double norm_squared;
+  double half_width;
+
+  /// b int lambda w dz
+  std::function<double(const SurfaceFunction& w)> contact_work;
+
+  /// lambda(z), or nullopt where it is infinite
+  std::function<std::optional<double>(double z)> pressure;
+
+  /// The L2 norm of u - u_h; empty where u is not known inside.
+  std::function<double(const RingSpace& space, const FieldVector& field)> l2_distance;
+
+  /// The order in h of the energy norm of the error on uniform meshes, for elements of a degree.
+  std::function<double(unsigned int degree)> expected_order;
+};
+
+/// The semi-analytic solution, with integrals of lambda by Gauss' rules that know its ends.
+Reference exact_reference(const ExactSolution& exact);
+
+/**
+ * A discrete solution @p result on @p space, by its contact forces N_i: b int lambda w dz = sum_i
+ * N_i w(z_i). Errors are known to within its own error, about which @p name should tell.
+ */
+Reference discrete_reference(const Scene& scene, const RingSpace& space, const Result& result,
+                             const std::string& name);
+
+} // namespace rollwave
+
+#endif

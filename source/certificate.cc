@@ -1,0 +1,295 @@
+#include "certificate.h"
+
+#include "dual_potential.h"
+#include "scene.h"
+#include "work.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// On each edge inside of the zone the linear pressure with the mean of the discrete one and the
+/// difference of its values at the vertices, as far as it then stays positive.
+std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& scene,
+                                         const ContactProblem& problem,
+                                         const ContactSolution& contact) {
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  const QGaussLobatto<1> lobatto(degree + 1);
+  std::map<types::global_dof_index, double> nodal;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    nodal[space.contact_nodes()[i].dof] = std::max(0., contact.state.force(i) / problem.weight(i));
+
+  std::vector<EdgePressure> pressures;
+  for (const SurfaceFace& face : space.surface_faces()) {
+    // A zone that ends within round-off of a vertex ends there.
+    const double tolerance = 1e-12;
+    if (face.begin < scene.zone_begin - tolerance || face.end > scene.zone_end + tolerance) {
+      pressures.push_back({0, 0});
+      continue;
+    }
+    const auto pressure = [&](unsigned int k) {
+      const auto found = nodal.find(face.dofs[k]);
+      return found == nodal.end() ? 0. : found->second;
+    };
+    double mean = 0;
+    for (unsigned int k = 0; k <= degree; ++k)
+      mean += lobatto.weight(k) * pressure(k);
+    const double slope = degree > 1 ? pressure(degree) - pressure(0) : 0.;
+    pressures.push_back({mean, std::clamp(slope, -2 * mean, 2 * mean)});
+  }
+  return pressures;
+}
+
+/// Shape functions in z at one point of a cell.
+struct AngularShapes {
+  std::vector<double> value;
+  std::vector<double> derivative; ///< d/dz
+
+  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t,
+                double length) {
+    std::vector<double> both(2);
+    for (const auto& shape : lagrange) {
+      shape.value(t, both);
+      value.push_back(both[0]);
+      derivative.push_back(both[1] / length);
+    }
+  }
+};
+
+/// The square of the distance of f from what Gauss' rules see of it, in the norm of int r w^2 dr
+/// dz: on each cell f is compared with the polynomial that equals it at the points of the rule, at
+/// the points of the rule on the four quarters of the cell.
+double unresolved_force_squared(const RingSpace& space, const Scene& scene,
+                                const QGauss<1>& gauss) {
+  const QIterated<1> fine(gauss, 2);
+  const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
+  const unsigned int n = gauss.size();
+  FullMatrix<double> interpolation(fine.size(), n);
+  for (unsigned int q = 0; q < fine.size(); ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      interpolation(q, i) = lagrange[i].value(fine.point(q)[0]);
+
+  FullMatrix<double> nodal(n), rows(fine.size(), n), values(fine.size());
+  double squared = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    const Point<2> low = cell->vertex(0);
+    const Tensor<1, 2> size = cell->vertex(3) - low;
+    const auto force = [&](double s, double t) {
+      return scene.force(low[0] + s * size[0], std::fmod(low[1] + t * size[1], 2 * numbers::PI));
+    };
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        nodal(i, j) = force(gauss.point(i)[0], gauss.point(j)[0]);
+    interpolation.mmult(rows, nodal);
+    rows.mTmult(values, interpolation);
+    for (unsigned int p = 0; p < fine.size(); ++p)
+      for (unsigned int q = 0; q < fine.size(); ++q) {
+        const double s = fine.point(p)[0];
+        const double error = force(s, fine.point(q)[0]) - values(p, q);
+        squared += fine.weight(p) * fine.weight(q) * size[0] * size[1] * (low[0] + s * size[0]) *
+                   error * error;
+      }
+  }
+  return squared;
+}
+
+/// The integrals over a line z = const of a cell, each over dr.
+struct LineIntegrals {
+  double bound_squared = 0; ///< of eta^2 without the road's term
+  double norm_squared = 0;  ///< of a(v, v)
+  double work_of_force = 0; ///< of (f, v)
+  double l2_squared = 0;    ///< of r v^2
+  double force_error = 0;   ///< of the square of the norm of f - f_0
+
+  void add(const LineIntegrals& other, double weight) {
+    bound_squared += weight * other.bound_squared;
+    norm_squared += weight * other.norm_squared;
+    work_of_force += weight * other.work_of_force;
+    l2_squared += weight * other.l2_squared;
+    force_error += weight * other.force_error;
+  }
+};
+
+class Integrator {
+public:
+  Integrator(const RingSpace& space, const Scene& scene, const FieldVector& displacement,
+             const FieldVector& potential, RadialShapesOfMesh& shapes, ForceColumns* columns)
+      : scene(scene), displacement(displacement), potential(potential), shapes(shapes),
+        columns(columns), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+        numbering(element.get_poly_space_numbering_inverse()), n(element.degree + 1),
+        lagrange(lobatto_lagrange(element.degree)), dofs(n * n), u(n * n), psi(n * n) {}
+
+  void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
+    low = cell->vertex(0);
+    high = cell->vertex(3);
+    radial = &shapes.on(low[0], high[0]);
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i) {
+      u[i] = displacement(dofs[numbering[i]]);
+      psi[i] = potential(dofs[numbering[i]]);
+    }
+  }
+
+  /// At t = (z - begin)/(end - begin), with the correction c of v on the surface.
+  LineIntegrals on_line(double t, const FeasibleTrace::Correction& correction) {
+    return on_line(t, AngularShapes(lagrange, t, high[1] - low[1]), correction);
+  }
+
+  LineIntegrals on_line(double t, const AngularShapes& angular,
+                        const FeasibleTrace::Correction& correction) const {
+    // Coefficients along the line of u, psi and their angular derivatives
+    std::array<double, 9> line_u, line_u_z, line_psi, line_psi_z;
+    for (unsigned int i = 0; i < n; ++i) {
+      line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
+      for (unsigned int j = 0; j < n; ++j) {
+        line_u[i] += angular.value[j] * u[i + n * j];
+        line_u_z[i] += angular.derivative[j] * u[i + n * j];
+        line_psi[i] += angular.value[j] * psi[i + n * j];
+        line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
+      }
+    }
+    const double z = low[1] + t * (high[1] - low[1]);
+    const double height = high[0] - low[0];
+    const ForceColumns::Column* const column = columns ? &columns->at(z) : nullptr;
+
+    LineIntegrals sums;
+    for (unsigned int q = 0; q < radial->r.size(); ++q) {
+      const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
+      const double xi = (r - low[0]) / height;
+      double v = correction.value * xi, v_r = correction.value / height,
+             v_z = correction.slope * xi, psi_s = 0, psi_z = 0;
+      for (unsigned int i = 0; i < n; ++i) {
+        v += radial->value(q, i) * line_u[i];
+        v_r += radial->derivative(q, i) * line_u[i];
+        v_z += radial->value(q, i) * line_u_z[i];
+        psi_s += radial->s_derivative(q, i) * line_psi[i];
+        psi_z += radial->s_value(q, i) * line_psi_z[i];
+      }
+      double radial_flux = -psi_z / r;
+      if (column) {
+        radial_flux += column->integral(r) / r;
+        const double f = scene.force(r, std::fmod(z, 2 * numbers::PI));
+        const double error = f - column->force(r);
+        sums.work_of_force += weight * r * f * v;
+        sums.l2_squared += weight * r * v * v;
+        sums.force_error += weight * r * error * error;
+      }
+      // tau_z = -alpha psi_s
+      sums.bound_squared +=
+          weight * r *
+          (alpha * (psi_s + v_z) * (psi_s + v_z) + (radial_flux - v_r) * (radial_flux - v_r));
+      sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
+    }
+    return sums;
+  }
+
+  double angular_length() const { return high[1] - low[1]; }
+  const std::vector<Polynomials::Polynomial<double>>& angular_shapes() const { return lagrange; }
+
+private:
+  const Scene& scene;
+  const FieldVector& displacement;
+  const FieldVector& potential;
+  RadialShapesOfMesh& shapes;
+  ForceColumns* columns;
+  const FE_Q<2>& element;
+  const std::vector<unsigned int> numbering;
+  const unsigned int n;
+  const std::vector<Polynomials::Polynomial<double>> lagrange;
+  std::vector<types::global_dof_index> dofs;
+  std::vector<double> u, psi; ///< nodal values on the cell, the radial index running fastest
+  Point<2> low, high;
+  const RadialShapes* radial = nullptr;
+};
+
+} // namespace
+
+Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
+                    const ContactSolution& contact, const FieldVector& field, Work& work) {
+  const Work::Phase phase(work, "certificate");
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  const QGauss<1> gauss(degree + 2);
+  RadialShapesOfMesh shapes(scene, degree, gauss.size());
+  std::optional<ForceColumns> columns;
+  if (scene.force)
+    columns.emplace(scene, 4);
+
+  const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
+  const FeasibleTrace trace(space, scene, displacement, contact.active);
+  const auto pressures = edge_pressures(space, scene, problem, contact);
+  const FieldVector potential =
+      solve_dual_potential(space, scene, shapes, pressures, columns ? &*columns : nullptr, work);
+
+  const auto& triangulation = space.dof_handler().get_triangulation();
+  std::vector<int> face_of_cell(triangulation.n_active_cells(), -1);
+  for (unsigned int i = 0; i < space.surface_faces().size(); ++i)
+    face_of_cell[space.surface_faces()[i].cell->active_cell_index()] = i;
+
+  Integrator integrator(space, scene, displacement, potential, shapes,
+                        columns ? &*columns : nullptr);
+  std::vector<double> cell_bounds(triangulation.n_active_cells());
+  double bound_squared = 0, norm_squared = 0, work_of_force = 0, l2_squared = 0, force_error = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    integrator.reinit(cell);
+    const double length = integrator.angular_length();
+    LineIntegrals sums;
+    double contact_work = 0;
+    const int face = face_of_cell[cell->active_cell_index()];
+    if (face < 0)
+      for (unsigned int p = 0; p < gauss.size(); ++p)
+        sums.add(integrator.on_line(gauss.point(p)[0], {0, 0, 0}), gauss.weight(p) * length);
+    else
+      for (const auto& piece : trace.pieces(face))
+        for (unsigned int p = 0; p < gauss.size(); ++p) {
+          const double piece_length = piece.t_end - piece.t_begin;
+          const double t = piece.t_begin + piece_length * gauss.point(p)[0];
+          const double weight = gauss.weight(p) * piece_length * length;
+          const auto correction = trace.correction(face, piece, t);
+          sums.add(integrator.on_line(t, correction), weight);
+          contact_work += weight * scene.outer_radius * pressures[face](t) * correction.gap;
+        }
+    const double cell_squared = sums.bound_squared + 2 * contact_work;
+    cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(0., cell_squared));
+    bound_squared += cell_squared;
+    norm_squared += sums.norm_squared;
+    work_of_force += sums.work_of_force;
+    l2_squared += sums.l2_squared;
+    force_error += sums.force_error;
+  }
+
+  const double a = scene.inner_radius, b = scene.outer_radius;
+  const double friedrichs =
+      std::sqrt(std::max(0., b * b / 2 * std::log(b / a) - (b - a) * (b + a) / 4));
+  double unresolved = 0;
+  if (columns && !columns->are_exact())
+    unresolved = std::sqrt(unresolved_force_squared(space, scene, gauss));
+  const double epsilon = friedrichs * (std::sqrt(force_error) + unresolved);
+  const double energy_norm = epsilon + std::sqrt(epsilon * epsilon + bound_squared);
+  const double energy = norm_squared / 2 - work_of_force;
+  const double energy_error = unresolved * std::sqrt(l2_squared);
+  const double smallest_norm = std::sqrt(norm_squared) - energy_norm;
+  double relative = std::numeric_limits<double>::infinity();
+  if (smallest_norm > 0)
+    relative = energy_norm / smallest_norm;
+  else if (energy_norm == 0)
+    relative = 0;
+  return {energy + energy_error,
+          energy - energy_error - bound_squared / 2 - epsilon * energy_norm,
+          norm_squared,
+          energy_norm,
+          relative,
+          std::move(cell_bounds),
+          trace};
+}
+
+} // namespace rollwave

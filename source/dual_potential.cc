@@ -1,0 +1,181 @@
+#include "dual_potential.h"
+
+#include "depth.h"
+#include "edge_constraints.h"
+#include "memory.h"
+#include "scene.h"
+#include "stiffness_triplets.h"
+#include "work.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// psi on r = b at the nodes of all edges: the primitive of b lambda, zero where the seam begins.
+std::vector<std::vector<double>> surface_potential(const RingSpace& space,
+                                                   const std::vector<EdgePressure>& pressures,
+                                                   double& growth) {
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  const QGaussLobatto<1> nodes(degree + 1);
+  std::vector<std::vector<double>> values;
+  double begin_value = 0;
+  for (unsigned int i = 0; i < pressures.size(); ++i) {
+    const SurfaceFace& face = space.surface_faces()[i];
+    const double area = space.outer_radius() * (face.end - face.begin);
+    values.emplace_back();
+    for (unsigned int k = 0; k <= degree; ++k) {
+      const double t = nodes.point(k)[0];
+      values.back().push_back(begin_value +
+                              area * t * (pressures[i].mean - pressures[i].slope * (1 - t) / 2));
+    }
+    begin_value += area * pressures[i].mean;
+  }
+  growth = begin_value;
+  return values;
+}
+
+/// psi given on r = b, growing in a period, continuous elsewhere.
+AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
+                                                const std::vector<EdgePressure>& pressures) {
+  double growth = 0;
+  const auto surface_values = surface_potential(space, pressures, growth);
+  AffineConstraints<double> constraints;
+  for (unsigned int i = 0; i < surface_values.size(); ++i) {
+    // Not SurfaceFace::dofs, in which both sides of the seam are one.
+    const auto dofs =
+        dofs_on_edge(space.surface_faces()[i].cell->face(1), space.dof_handler().get_fe().degree);
+    for (unsigned int k = 0; k < dofs.size(); ++k)
+      if (!constraints.is_constrained(dofs[k])) {
+        constraints.add_line(dofs[k]);
+        constraints.set_inhomogeneity(dofs[k], surface_values[i][k]);
+      }
+  }
+  tie_edges(
+      space.dof_handler(),
+      [&scene](double r, double begin, double end) {
+        return depth_between(scene, begin, r) / depth_between(scene, begin, end);
+      },
+      growth, constraints);
+  constraints.close();
+  return constraints;
+}
+
+/// The integrals of products of shape functions over the reference interval [0, 1].
+struct ReferenceMatrices {
+  FullMatrix<double> mass;
+  FullMatrix<double> stiffness;
+
+  explicit ReferenceMatrices(unsigned int degree) : mass(degree + 1), stiffness(degree + 1) {
+    const QGauss<1> gauss(degree + 1);
+    const auto shapes = lobatto_lagrange(degree);
+    std::vector<double> first(2), second(2);
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+      for (unsigned int i = 0; i <= degree; ++i)
+        for (unsigned int j = 0; j <= degree; ++j) {
+          shapes[i].value(gauss.point(q)[0], first);
+          shapes[j].value(gauss.point(q)[0], second);
+          mass(i, j) += first[0] * second[0] * gauss.weight(q);
+          stiffness(i, j) += first[1] * second[1] * gauss.weight(q);
+        }
+  }
+};
+
+} // namespace
+
+FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
+                                 RadialShapesOfMesh& shapes,
+                                 const std::vector<EdgePressure>& pressures, ForceColumns* columns,
+                                 Work& work) {
+  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
+  const unsigned int n = element.degree + 1, dofs_per_cell = n * n;
+  const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
+  FieldVector lift = space.make_field();
+  constraints.distribute(lift);
+
+  std::vector<int> unknown_of_dof(lift.size(), 0);
+  for (const auto& line : constraints.get_lines())
+    unknown_of_dof[line.index] = -1;
+  int n_unknowns = 0;
+  for (int& unknown : unknown_of_dof)
+    if (unknown == 0)
+      unknown = n_unknowns++;
+
+  const ReferenceMatrices reference(element.degree);
+  const QGauss<1> gauss(element.degree + 2);
+  const auto angular = lobatto_lagrange(element.degree);
+  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
+  TripletAssembler assembler(space, constraints, unknown_of_dof);
+  FullMatrix<double> cell_matrix(dofs_per_cell), weighted(n);
+  std::vector<types::global_dof_index> dofs(dofs_per_cell), ordered(dofs_per_cell);
+  Vector<double> cell_vector(dofs_per_cell), cell_lift(dofs_per_cell);
+  FieldVector rhs = space.make_field();
+  const RadialShapes* radial = nullptr;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    if (!radial || radial->begin != low[0] || radial->end != high[0]) {
+      radial = &shapes.on(low[0], high[0]);
+      weighted = 0;
+      for (unsigned int q = 0; q < radial->r.size(); ++q)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            weighted(i, j) +=
+                radial->s_value(q, i) * radial->s_value(q, j) * radial->weight[q] / radial->r[q];
+    }
+    // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
+    const double length = high[1] - low[1];
+    for (unsigned int i = 0; i < dofs_per_cell; ++i)
+      for (unsigned int j = 0; j < dofs_per_cell; ++j)
+        cell_matrix(i, j) = reference.stiffness(i % n, j % n) / radial->s_length *
+                                reference.mass(i / n, j / n) * length +
+                            weighted(i % n, j % n) * reference.stiffness(i / n, j / n) / length;
+
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs_per_cell; ++i) {
+      ordered[i] = dofs[numbering[i]];
+      cell_lift(i) = lift(ordered[i]);
+    }
+    assembler.add(ordered, cell_matrix);
+
+    cell_matrix.vmult(cell_vector, cell_lift);
+    cell_vector *= -1;
+    if (columns)
+      for (unsigned int p = 0; p < gauss.size(); ++p) {
+        const auto& column = columns->at(low[1] + length * gauss.point(p)[0]);
+        for (unsigned int q = 0; q < radial->r.size(); ++q) {
+          const double factor = column.integral(radial->r[q]) / radial->r[q] * radial->weight[q] *
+                                gauss.weight(p); // d/dz and dz cancel in length
+          for (unsigned int j = 0; j < n; ++j) {
+            const double slope = angular[j].derivative().value(gauss.point(p)[0]) * factor;
+            for (unsigned int i = 0; i < n; ++i)
+              cell_vector(i + n * j) += radial->s_value(q, i) * slope;
+          }
+        }
+      }
+    constraints.distribute_local_to_global(cell_vector, ordered, rhs);
+  }
+
+  SparseCholesky cholesky(n_unknowns, 0, assembler.triplets);
+  assembler.triplets = {};
+  require_memory(sizeof(double) * cholesky.n_factor_entries(), "the factor of the dual problem");
+  cholesky.factorise();
+  ++work.factorisations;
+  std::vector<double> unknowns(n_unknowns);
+  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+    if (unknown_of_dof[dof] >= 0)
+      unknowns[unknown_of_dof[dof]] = rhs(dof);
+  unknowns = cholesky.backward(cholesky.forward(unknowns));
+  ++work.forward_substitutions;
+  ++work.back_substitutions;
+  FieldVector potential = space.make_field();
+  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+    if (unknown_of_dof[dof] >= 0)
+      potential(dof) = unknowns[unknown_of_dof[dof]];
+  constraints.distribute(potential);
+  return potential;
+}
+
+} // namespace rollwave

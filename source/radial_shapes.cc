@@ -1,0 +1,68 @@
+#include "radial_shapes.h"
+
+#include "depth.h"
+#include "scene.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollwave {
+
+using namespace dealii;
+
+std::vector<Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree) {
+  return Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
+}
+
+RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree,
+                                       unsigned int n_points)
+    : scene(scene), lagrange(lobatto_lagrange(degree)), n_points(n_points) {}
+
+const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
+  const auto key = std::pair(begin, end);
+  const auto found = known.find(key);
+  return found != known.end() ? found->second : known.emplace(key, make(begin, end)).first->second;
+}
+
+RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
+  const QGauss<1> gauss(n_points);
+  const unsigned int n_pieces = std::max(1., std::ceil(std::log2(end / begin) - 1e-12));
+  RadialShapes shapes;
+  shapes.begin = begin;
+  shapes.end = end;
+  shapes.s_length = depth_between(scene, begin, end);
+  double piece_begin = begin;
+  for (unsigned int piece = 1; piece <= n_pieces; ++piece) {
+    const double piece_end =
+        piece == n_pieces ? end : begin * std::pow(end / begin, double(piece) / n_pieces);
+    for (unsigned int q = 0; q < gauss.size(); ++q) {
+      shapes.r.push_back(piece_begin + (piece_end - piece_begin) * gauss.point(q)[0]);
+      shapes.weight.push_back((piece_end - piece_begin) * gauss.weight(q));
+    }
+    piece_begin = piece_end;
+  }
+
+  const unsigned int n_q = shapes.r.size(), n = lagrange.size();
+  for (auto* const matrix :
+       {&shapes.value, &shapes.derivative, &shapes.s_value, &shapes.s_derivative})
+    matrix->reinit(n_q, n);
+  std::vector<double> both(2);
+  for (unsigned int q = 0; q < n_q; ++q) {
+    const double r = shapes.r[q];
+    shapes.alpha.push_back(scene.alpha(r));
+    const double t = depth_between(scene, begin, r) / shapes.s_length;
+    for (unsigned int i = 0; i < n; ++i) {
+      lagrange[i].value((r - begin) / (end - begin), both);
+      shapes.value(q, i) = both[0];
+      shapes.derivative(q, i) = both[1] / (end - begin);
+      lagrange[i].value(t, both);
+      shapes.s_value(q, i) = both[0];
+      shapes.s_derivative(q, i) = -both[1] / shapes.s_length;
+    }
+  }
+  return shapes;
+}
+
+} // namespace rollwave

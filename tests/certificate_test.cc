@@ -1,0 +1,201 @@
+// The certificate is a bound: never below the true error, whatever the scene, the mesh and the
+// force, and not far above it.
+#include "certificate.h"
+
+#include "depth.h"
+#include "manufactured_scene.h"
+#include "test_scenes.h"
+#include "true_errors.h"
+#include "verification.h"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+using namespace rollwave;
+using dealii::numbers::PI;
+
+namespace {
+
+/// How many random scenes to draw: ROLLWAVE_RANDOM_SCENES, or 30.
+int n_random_scenes() {
+  const char* const wanted = std::getenv("ROLLWAVE_RANDOM_SCENES");
+  return wanted ? std::atoi(wanted) : 30;
+}
+
+class Draw {
+public:
+  double number(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
+  int count(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
+  template <typename T>
+  T one_of(const std::vector<T>& choices) {
+    return choices[count(0, choices.size() - 1)];
+  }
+
+private:
+  std::mt19937 engine{20240607};
+};
+
+std::string text(double value) {
+  std::ostringstream out;
+  out.precision(17);
+  out << value;
+  return out.str();
+}
+
+TEST(Certificate, HoldsForRandomScenes) {
+  Draw draw;
+  int n_checked = 0;
+  double worst = 0;
+  while (n_checked < n_random_scenes()) {
+    const double b = draw.one_of<double>({1, 0.3, 7});
+    const double a = b * draw.number(0.1, 0.95);
+    const double omega = draw.one_of<double>({0, draw.number(0, 0.95), 1}) / b;
+    // u_f(b) is 1/2 f b^2 times a function of a/b; lengths of the order of the ring's thickness
+    const double f = draw.one_of<double>({0, 0, draw.number(-0.3, 1)}) / b;
+    const double c = b - (b - a) * draw.number(0.01, 0.9);
+    const int radial = draw.count(1, 4);
+    const int angular = std::max(
+        3, static_cast<int>(radial * 2 * PI * (a + b) / 2 / (b - a) * draw.number(0.3, 2)));
+    const std::vector<std::string> settings = {
+        "Cylinder/Inner radius=" + text(a),
+        "Cylinder/Outer radius=" + text(b),
+        "Cylinder/Angular velocity=" + text(omega),
+        "Cylinder/Radial force=" + text(f),
+        "Road/Distance=" + text(c),
+        "Mesh/Degree=" + std::to_string(draw.count(1, 2)),
+        "Mesh/Radial cells=" + std::to_string(radial),
+        "Mesh/Angular cells=" + std::to_string(angular),
+        "Mesh/Indicator=" + draw.one_of<std::string>({"residual", "certificate"}),
+        "Mesh/Adaptive cycles=" + std::to_string(draw.count(0, 7)),
+        "Mesh/Most unknowns=40000"};
+    SCOPED_TRACE(testing::PrintToString(settings));
+    const Parameters parameters = parameters_of(settings);
+    const Scene scene = make_scene(parameters);
+    const auto exact = find_exact_solution(scene, parameters);
+    ASSERT_TRUE(exact);
+    ++n_checked;
+
+    const Solution solution = simulate(scene, parameters);
+    const CertifiedError& certified = *solution.result.certified;
+    // The exact energy has its own accuracy.
+    const double floor = 10 * exact->energy_accuracy * std::abs(exact->energy) +
+                         1e-13 * std::abs(exact->norm_squared);
+    EXPECT_LE(certified.lower_bound, exact->energy + floor);
+    EXPECT_GE(certified.upper_bound, exact->energy - floor);
+    const TrueErrors errors =
+        measure_true_errors(*solution.space, solution.displacement, solution.result,
+                            solution.certificate, exact_reference(*exact));
+    EXPECT_GE(certified.energy_norm * (1 + 1e-6) + 1e-6 * std::sqrt(exact->norm_squared),
+              *errors.feasible_energy_norm);
+    if (certified.upper_bound - exact->energy > 100 * floor) {
+      const bool is_fine_adaptive = solution.result.cycles.size() > 1 &&
+                                    solution.result.mesh.dofs > 1000 &&
+                                    parameters.mesh.indicator == Indicator::certificate;
+      EXPECT_LE(*errors.effectivity, is_fine_adaptive ? 2.5 : 6)
+          << solution.result.mesh.dofs << " unknowns";
+      worst = std::max(worst, *errors.effectivity);
+    }
+  }
+  std::cout << n_checked << " scenes, largest effectivity " << worst << std::endl;
+}
+
+TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
+  for (const double omega : {0., 0.6, 1.})
+    for (const bool is_cut : {false, true}) {
+      const double s = omega == 1 ? 1. / 3 : 1. / 2;
+      const ContactPressureSeries pressure(4.9, 0.41, is_cut ? 0.5 - s : 1.5 - s,
+                                           {0.3, 0.05, 0.02});
+      const ManufacturedScene made =
+          manufacture_scene(0.5, 1, omega, pressure, is_cut ? -s : 1 - s, 0.3, is_cut ? 0 : 0.4,
+                            is_cut ? 20000 : 3000);
+      for (const int degree : {1, 2})
+        for (const int cycles : {0, 6}) {
+          const Parameters parameters = parameters_of(
+              {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4",
+               "Mesh/Angular cells=50", "Mesh/Adaptive cycles=" + std::to_string(cycles)});
+          const Solution solution = simulate(made.scene, parameters);
+          const TrueErrors errors =
+              measure_true_errors(*solution.space, solution.displacement, solution.result,
+                                  solution.certificate, exact_reference(made.exact));
+          SCOPED_TRACE(testing::Message() << "omega " << omega << " cut " << is_cut << " degree "
+                                          << degree << " cycles " << cycles);
+          EXPECT_LE(solution.result.certified->lower_bound, made.exact.energy);
+          EXPECT_GE(solution.result.certified->upper_bound, made.exact.energy);
+          EXPECT_GE(solution.result.certified->energy_norm, *errors.feasible_energy_norm);
+          EXPECT_LE(*errors.effectivity, 6);
+        }
+    }
+}
+
+TEST(Certificate, HoldsForForcesWithKinks) {
+  // No contact, so that the finest solution's certified bounds enclose J for the coarser ones.
+  for (const std::string force : {"sin(3*z)*r^2", "abs(z-3)", "if(r<0.7123,1,0)*if(z<2,1,-1)"}) {
+    const auto solve = [&](int refinements) {
+      const Parameters parameters = parameters_of(
+          {"Cylinder/Radial force=" + force, "Road/Distance=1.95", "Mesh/Radial cells=3",
+           "Mesh/Angular cells=36", "Mesh/Global refinements=" + std::to_string(refinements)});
+      return *simulate(make_scene(parameters), parameters).result.certified;
+    };
+    double lower = -1e9, upper = 1e9;
+    for (const int refinements : {0, 1, 2, 3}) {
+      const CertifiedError certified = solve(refinements);
+      EXPECT_LT(certified.lower_bound, certified.upper_bound);
+      // Each interval meets all others.
+      lower = std::max(lower, certified.lower_bound);
+      upper = std::min(upper, certified.upper_bound);
+      EXPECT_LT(lower, upper) << force << " after " << refinements;
+    }
+  }
+}
+
+TEST(Certificate, OfAnExactSolutionIsRoundOff) {
+  // u = phi ln(r/a)/ln(b/a) is no polynomial, but without force and contact u = 0 is.
+  const Parameters parameters =
+      parameters_of({"Road/Distance=1.5", "Mesh/Radial cells=2", "Mesh/Angular cells=12"});
+  const Solution solution = simulate(make_scene(parameters), parameters);
+  EXPECT_EQ(solution.result.certified->energy_norm, 0);
+  EXPECT_EQ(solution.result.certified->relative, 0);
+  EXPECT_EQ(solution.result.certified->lower_bound, 0);
+  EXPECT_EQ(solution.result.certified->upper_bound, 0);
+}
+
+TEST(Certificate, OfFullContactEnclosesTheExactEnergy) {
+  // J = -b phi lambda pi = pi phi^2 / ln(b/a)
+  const double phi = -0.1, energy = PI * phi * phi / std::log(2.);
+  for (const int degree : {1, 2}) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=3",
+                       "Mesh/Angular cells=24", "Mesh/Adaptive cycles=3"});
+    const Solution solution = simulate(full_circle(0.5, 1, 0.5, phi), parameters);
+    const CertifiedError& certified = *solution.result.certified;
+    EXPECT_LE(certified.lower_bound, energy);
+    EXPECT_GE(certified.upper_bound, energy);
+    EXPECT_LT(certified.relative, degree == 1 ? 0.05 : 0.005);
+  }
+}
+
+TEST(Depth, IsAccurateWhereItsDifferencesCancel) {
+  // At the critical speed b = 1, s(1 - y) = y^2 + y^3/3 + y^4/4 + ...
+  const Scene scene = full_circle(0.5, 1, 1, 0);
+  for (double y = 1e-12; y < 0.5; y *= 10) {
+    const double inner = 1 - y, thickness = 1 - inner;
+    double series = 0;
+    for (int k = 60; k >= 3; --k)
+      series += std::pow(thickness, k) / k;
+    // Points between inner and 1 are rounded to multiples of the unit in the last place.
+    EXPECT_NEAR(depth_between(scene, inner, 1) / (thickness * thickness + series), 1,
+                1e-13 + 4e-16 / thickness);
+  }
+  const Scene slow = full_circle(0.01, 1, 0.3, 0);
+  EXPECT_NEAR(depth_between(slow, 0.01, 1), std::log(100.) - 0.09 * (1 - 1e-4) / 2, 1e-13);
+}
+
+} // namespace
