@@ -25,8 +25,8 @@ struct EdgePressure {
  *     r tau_z = psi_r,   r tau_r = G - psi_z,   G(r, z) = int_r^b rho f drho,   psi_z = b lambda on
  *     r = b,
  *
- * so that d_z tau_z + (1/r) d_r (r tau_r) + f = 0 whatever psi is. Among the functions that are
- * polynomials in s(r) and z on each cell it minimises
+ * so that d_z tau_z + (1/r) d_r (r tau_r) + f = 0 whatever psi is. Among the continuous functions
+ * that are products of PotentialShapes in r and polynomials in z on each cell it minimises
  *
  *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (G - psi_z)^2 / r dr dz.
  *

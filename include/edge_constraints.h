@@ -5,24 +5,25 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
+#include <vector>
 
 namespace rollwave {
 
-/// Where the radius r lies between @p begin and @p end, from 0 to 1, in terms of a coordinate that
-/// grows or falls with r.
-using RadialPlace = std::function<double(double r, double begin, double end)>;
+/// The values at the radius r of the radial shape functions on the interval from @p begin to @p
+/// end.
+using RadialShapeValues = std::function<std::vector<double>(double r, double begin, double end)>;
 
 /**
  * Adds the constraints that make a function continuous over hanging nodes and, up to a constant,
- * over the seam: u(r, z + 2 pi) = u(r, z) + @p growth. On each cell u is a polynomial in z and in a
- * coordinate of r in which @p place measures; cells need not be cut at their middle in that
- * coordinate, as deal.II's own constraints assume.
+ * over the seam: u(r, z + 2 pi) = u(r, z) + @p growth. On each cell u is a combination of products
+ * of polynomials in z and the functions of r that @p shapes evaluates, with nodes at Gauss-Lobatto
+ * points in both directions; deal.II's own constraints are for polynomials only.
  *
  * The nodes on the finer side of an edge follow those of the coarser side. On the seam, vertices of
  * the second side follow those of the first. Degrees of freedom that are constrained already are
  * left as they are.
  */
-void tie_edges(const dealii::DoFHandler<2>& handler, const RadialPlace& place, double growth,
+void tie_edges(const dealii::DoFHandler<2>& handler, const RadialShapeValues& shapes, double growth,
                dealii::AffineConstraints<double>& constraints);
 
 /// The nodes on an edge from its first vertex to its second.

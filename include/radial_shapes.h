@@ -14,9 +14,9 @@ struct Scene;
 
 /**
  * One-dimensional shape functions on the radial interval [begin, end] of a cell at the points of a
- * quadrature rule: Lagrange polynomials L_i with nodes at Gauss-Lobatto points, once as polynomials
- * in r (displacements), once in s(r) (potentials, see depth_between()), i counting outwards. Entry
- * (q, i) of a matrix is that of the point q.
+ * quadrature rule, i counting outwards: Lagrange polynomials L_i in r with nodes at Gauss-Lobatto
+ * points for displacements, PotentialShapes for potentials. Entry (q, i) of a matrix is that of the
+ * point q.
  */
 struct RadialShapes {
   double begin;
@@ -24,11 +24,14 @@ struct RadialShapes {
   std::vector<double> r;
   std::vector<double> weight; ///< of the rule for dr
   std::vector<double> alpha;
-  dealii::FullMatrix<double> value;        ///< L_i((r - begin)/(end - begin))
-  dealii::FullMatrix<double> derivative;   ///< d/dr of it
-  dealii::FullMatrix<double> s_value;      ///< L_i(t), t = (s(begin) - s(r))/s_length
-  dealii::FullMatrix<double> s_derivative; ///< d/ds of it
-  double s_length;                         ///< s(begin) - s(end)
+  dealii::FullMatrix<double> value;       ///< L_i((r - begin)/(end - begin))
+  dealii::FullMatrix<double> derivative;  ///< d/dr of it
+  dealii::FullMatrix<double> potential;   ///< of a potential
+  dealii::FullMatrix<double> potential_s; ///< of a potential, d/ds
+
+  // Integrals of products of two shape functions of a potential
+  dealii::FullMatrix<double> depth_stiffness; ///< int d/ds d/ds ds, by the rule
+  dealii::FullMatrix<double> inverse_mass;    ///< int 1/r dr, by the rule
 };
 
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.

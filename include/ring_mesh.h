@@ -23,7 +23,9 @@ enum BoundaryId : unsigned int {
 
 /**
  * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), refined
- * `Mesh/Global refinements` times, periodic over the seam.
+ * `Mesh/Global refinements` times, periodic over the seam. Where `Road/Contact zone` is given, its
+ * ends are vertices, and the cells within and outside of it differ in length as they must: a zone
+ * that ended inside of cells would cut the contact short at another place on every mesh.
  *
  * @throws BadInput when it would have more than `Mesh/Most unknowns` unknowns.
  */

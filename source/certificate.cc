@@ -172,8 +172,8 @@ public:
         v += radial->value(q, i) * line_u[i];
         v_r += radial->derivative(q, i) * line_u[i];
         v_z += radial->value(q, i) * line_u_z[i];
-        psi_s += radial->s_derivative(q, i) * line_psi[i];
-        psi_z += radial->s_value(q, i) * line_psi_z[i];
+        psi_s += radial->potential_s(q, i) * line_psi[i];
+        psi_z += radial->potential(q, i) * line_psi_z[i];
       }
       double radial_flux = -psi_z / r;
       if (column) {

@@ -1,8 +1,8 @@
 #include "dual_potential.h"
 
-#include "depth.h"
 #include "edge_constraints.h"
 #include "memory.h"
+#include "potential_shapes.h"
 #include "scene.h"
 #include "stiffness_triplets.h"
 #include "work.h"
@@ -56,8 +56,8 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
   }
   tie_edges(
       space.dof_handler(),
-      [&scene](double r, double begin, double end) {
-        return depth_between(scene, begin, r) / depth_between(scene, begin, end);
+      [&scene, degree = space.dof_handler().get_fe().degree](double r, double begin, double end) {
+        return PotentialShapes(scene, degree, begin, end).values(r);
       },
       growth, constraints);
   constraints.close();
@@ -109,29 +109,20 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
   const auto angular = lobatto_lagrange(element.degree);
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   TripletAssembler assembler(space, constraints, unknown_of_dof);
-  FullMatrix<double> cell_matrix(dofs_per_cell), weighted(n);
+  FullMatrix<double> cell_matrix(dofs_per_cell);
   std::vector<types::global_dof_index> dofs(dofs_per_cell), ordered(dofs_per_cell);
   Vector<double> cell_vector(dofs_per_cell), cell_lift(dofs_per_cell);
   FieldVector rhs = space.make_field();
-  const RadialShapes* radial = nullptr;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    if (!radial || radial->begin != low[0] || radial->end != high[0]) {
-      radial = &shapes.on(low[0], high[0]);
-      weighted = 0;
-      for (unsigned int q = 0; q < radial->r.size(); ++q)
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            weighted(i, j) +=
-                radial->s_value(q, i) * radial->s_value(q, j) * radial->weight[q] / radial->r[q];
-    }
+    const RadialShapes& radial = shapes.on(low[0], high[0]);
     // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
     const double length = high[1] - low[1];
     for (unsigned int i = 0; i < dofs_per_cell; ++i)
       for (unsigned int j = 0; j < dofs_per_cell; ++j)
-        cell_matrix(i, j) = reference.stiffness(i % n, j % n) / radial->s_length *
-                                reference.mass(i / n, j / n) * length +
-                            weighted(i % n, j % n) * reference.stiffness(i / n, j / n) / length;
+        cell_matrix(i, j) =
+            radial.depth_stiffness(i % n, j % n) * reference.mass(i / n, j / n) * length +
+            radial.inverse_mass(i % n, j % n) * reference.stiffness(i / n, j / n) / length;
 
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs_per_cell; ++i) {
@@ -145,13 +136,13 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
     if (columns)
       for (unsigned int p = 0; p < gauss.size(); ++p) {
         const auto& column = columns->at(low[1] + length * gauss.point(p)[0]);
-        for (unsigned int q = 0; q < radial->r.size(); ++q) {
-          const double factor = column.integral(radial->r[q]) / radial->r[q] * radial->weight[q] *
+        for (unsigned int q = 0; q < radial.r.size(); ++q) {
+          const double factor = column.integral(radial.r[q]) / radial.r[q] * radial.weight[q] *
                                 gauss.weight(p); // d/dz and dz cancel in length
           for (unsigned int j = 0; j < n; ++j) {
             const double slope = angular[j].derivative().value(gauss.point(p)[0]) * factor;
             for (unsigned int i = 0; i < n; ++i)
-              cell_vector(i + n * j) += radial->s_value(q, i) * slope;
+              cell_vector(i + n * j) += radial.potential(q, i) * slope;
           }
         }
       }

@@ -30,16 +30,26 @@ Edge edge_of(const DoFHandler<2>::face_iterator& face, unsigned int degree) {
 
 class EdgeTies {
 public:
-  EdgeTies(unsigned int degree, const RadialPlace& place, AffineConstraints<double>& constraints)
-      : degree(degree), place(place), shapes(lobatto_lagrange(degree)),
+  EdgeTies(unsigned int degree, const RadialShapeValues& radial,
+           AffineConstraints<double>& constraints)
+      : degree(degree), radial(radial), polynomials(lobatto_lagrange(degree)),
         nodes(QGaussLobatto<1>(degree + 1).get_points()), constraints(constraints) {}
 
   void tie_hanging_nodes(const DoFHandler<2>::face_iterator& face, bool is_radial) {
     const Edge coarse = edge_of(face, degree);
-    const double middle =
-        is_radial ? place(face->child(0)->vertex(1)[0], coarse.begin, coarse.end) : 0.5;
-    tie(edge_of(face->child(0), degree), 0, middle, coarse, 0);
-    tie(edge_of(face->child(1), degree), middle, 1, coarse, 0);
+    for (const unsigned int half : {0U, 1U}) {
+      const Edge fine = edge_of(face->child(half), degree);
+      if (is_radial)
+        tie(fine, coarse, 0);
+      else
+        for (unsigned int k = 0; k <= degree; ++k) {
+          std::vector<double> weights;
+          for (const auto& polynomial : polynomials)
+            weights.push_back(polynomial.value((half + nodes[k][0]) / 2));
+          if (k != degree * half)
+            tie(fine.dofs[k], coarse.dofs, weights, 0);
+        }
+    }
   }
 
   void tie_seam(std::vector<Edge> first, std::vector<Edge> second, double growth) {
@@ -49,13 +59,13 @@ public:
     for (std::size_t i = 0, j = 0; i < first.size() && j < second.size();) {
       const Edge &one = first[i], &other = second[j];
       if (one.begin == other.begin)
-        tie(other.dofs.front(), one.dofs.front(), growth);
+        tie(other.dofs.front(), {one.dofs.front()}, {1.}, growth);
       if (one.end == other.end)
-        tie(other.dofs.back(), one.dofs.back(), growth);
+        tie(other.dofs.back(), {one.dofs.back()}, {1.}, growth);
       if (one.begin <= other.begin && other.end <= one.end)
-        tie(other, place_on(one, other.begin), place_on(one, other.end), one, growth);
+        tie(other, one, growth);
       else
-        tie(one, place_on(other, one.begin), place_on(other, one.end), other, -growth);
+        tie(one, other, -growth);
       const bool first_ends = one.end <= other.end, second_ends = other.end <= one.end;
       i += first_ends;
       j += second_ends;
@@ -63,41 +73,31 @@ public:
   }
 
 private:
-  double place_on(const Edge& edge, double r) const {
-    if (r == edge.begin || r == edge.end)
-      return r == edge.begin ? 0 : 1;
-    return place(r, edge.begin, edge.end);
-  }
-
-  void tie(Dof dof, Dof master, double offset) {
-    if (constraints.is_constrained(dof))
-      return;
-    constraints.add_line(dof);
-    constraints.add_entry(dof, master, 1);
-    constraints.set_inhomogeneity(dof, offset);
-  }
-
-  /// Ties the nodes of an edge that reaches from @p t_begin to @p t_end on a coarser one to the
-  /// nodes of the latter. Vertices that both share are left.
-  void tie(const Edge& fine, double t_begin, double t_end, const Edge& coarse, double offset) {
+  /// Ties the nodes of a radial edge to those of another that is as long or longer. Vertices that
+  /// both share are left.
+  void tie(const Edge& fine, const Edge& coarse, double offset) {
     for (unsigned int k = 0; k <= degree; ++k) {
-      const double t = k == degree ? t_end : t_begin + (t_end - t_begin) * nodes[k][0];
-      if (t == 0 || t == 1 || constraints.is_constrained(fine.dofs[k]))
-        continue;
-      constraints.add_line(fine.dofs[k]);
-      constraints.set_inhomogeneity(fine.dofs[k], offset);
-      for (unsigned int j = 0; j <= degree; ++j) {
-        // A node that is one of the coarser edge depends on no other but for round-off.
-        const double weight = shapes[j].value(t);
-        if (std::abs(weight) > 1e-14)
-          constraints.add_entry(fine.dofs[k], coarse.dofs[j], weight);
-      }
+      const double r = k == degree ? fine.end : fine.begin + nodes[k][0] * (fine.end - fine.begin);
+      if (r != coarse.begin && r != coarse.end)
+        tie(fine.dofs[k], coarse.dofs, radial(r, coarse.begin, coarse.end), offset);
     }
   }
 
+  void tie(Dof dof, const std::vector<Dof>& masters, const std::vector<double>& weights,
+           double offset) {
+    if (constraints.is_constrained(dof))
+      return;
+    constraints.add_line(dof);
+    constraints.set_inhomogeneity(dof, offset);
+    for (unsigned int j = 0; j < masters.size(); ++j)
+      // A node that is one of the masters depends on no other but for round-off.
+      if (std::abs(weights[j]) > 1e-13)
+        constraints.add_entry(dof, masters[j], weights[j]);
+  }
+
   const unsigned int degree;
-  const RadialPlace& place;
-  const std::vector<Polynomials::Polynomial<double>> shapes;
+  const RadialShapeValues& radial;
+  const std::vector<Polynomials::Polynomial<double>> polynomials;
   const std::vector<Point<1>> nodes;
   AffineConstraints<double>& constraints;
 };
@@ -112,10 +112,10 @@ std::vector<Dof> dofs_on_edge(const DoFHandler<2>::face_iterator& face, unsigned
   return dofs;
 }
 
-void tie_edges(const DoFHandler<2>& handler, const RadialPlace& place, double growth,
+void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, double growth,
                AffineConstraints<double>& constraints) {
   const unsigned int degree = handler.get_fe().degree;
-  EdgeTies ties(degree, place, constraints);
+  EdgeTies ties(degree, shapes, constraints);
   std::vector<Edge> seam_begin, seam_end;
   for (const auto& cell : handler.active_cell_iterators())
     for (const unsigned int f : cell->face_indices()) {

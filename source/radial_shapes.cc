@@ -1,6 +1,6 @@
 #include "radial_shapes.h"
 
-#include "depth.h"
+#include "potential_shapes.h"
 #include "scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -32,7 +32,7 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
   RadialShapes shapes;
   shapes.begin = begin;
   shapes.end = end;
-  shapes.s_length = depth_between(scene, begin, end);
+  const PotentialShapes potential_shapes(scene, lagrange.size() - 1, begin, end);
   double piece_begin = begin;
   for (unsigned int piece = 1; piece <= n_pieces; ++piece) {
     const double piece_end =
@@ -46,22 +46,32 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
 
   const unsigned int n_q = shapes.r.size(), n = lagrange.size();
   for (auto* const matrix :
-       {&shapes.value, &shapes.derivative, &shapes.s_value, &shapes.s_derivative})
+       {&shapes.value, &shapes.derivative, &shapes.potential, &shapes.potential_s})
     matrix->reinit(n_q, n);
   std::vector<double> both(2);
   for (unsigned int q = 0; q < n_q; ++q) {
     const double r = shapes.r[q];
     shapes.alpha.push_back(scene.alpha(r));
-    const double t = depth_between(scene, begin, r) / shapes.s_length;
+    const std::vector<double> values = potential_shapes.values(r);
+    const std::vector<double> derivatives = potential_shapes.depth_derivatives(r);
     for (unsigned int i = 0; i < n; ++i) {
       lagrange[i].value((r - begin) / (end - begin), both);
       shapes.value(q, i) = both[0];
       shapes.derivative(q, i) = both[1] / (end - begin);
-      lagrange[i].value(t, both);
-      shapes.s_value(q, i) = both[0];
-      shapes.s_derivative(q, i) = -both[1] / shapes.s_length;
+      shapes.potential(q, i) = values[i];
+      shapes.potential_s(q, i) = derivatives[i];
     }
   }
+  shapes.depth_stiffness.reinit(n, n);
+  shapes.inverse_mass.reinit(n, n);
+  for (unsigned int q = 0; q < n_q; ++q)
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j) {
+        const double r = shapes.r[q], weight = shapes.weight[q];
+        shapes.depth_stiffness(i, j) += shapes.potential_s(q, i) * shapes.potential_s(q, j) *
+                                        weight * r * shapes.alpha[q]; // ds = r alpha dr
+        shapes.inverse_mass(i, j) += shapes.potential(q, i) * shapes.potential(q, j) * weight / r;
+      }
   return shapes;
 }
 

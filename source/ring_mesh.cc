@@ -9,11 +9,40 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace rollwave {
 
 using namespace dealii;
+
+namespace {
+
+constexpr double seam_angle = numbers::PI / 2;
+
+/// The angular lengths of the cells: equal, or nearly so where the user gives a zone of contact,
+/// whose ends shall be vertices.
+std::vector<double> angular_steps(const Scene& scene, const Parameters& parameters) {
+  const int n = parameters.mesh.angular_cells;
+  if (!parameters.road.contact_zone)
+    return std::vector<double>(n, 2 * numbers::PI / n);
+  const double before = scene.zone_begin - seam_angle;
+  const double zone = scene.zone_end - scene.zone_begin;
+  const double after = 2 * numbers::PI - before - zone;
+  const auto share = [n](double arc, int least, int most) {
+    return std::clamp<int>(std::lround(n * arc / (2 * numbers::PI)), least, most);
+  };
+  const int n_zone = share(zone, 1, n - 2);
+  const int n_before = share(before, 1, n - n_zone - 1);
+  const int n_after = n - n_zone - n_before;
+  std::vector<double> steps(n_before, before / n_before);
+  steps.insert(steps.end(), n_zone, zone / n_zone);
+  steps.insert(steps.end(), n_after, after / n_after);
+  return steps;
+}
+
+} // namespace
 
 std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters) {
   const auto& mesh = parameters.mesh;
@@ -27,10 +56,13 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
 
   auto triangulation =
       std::make_unique<Triangulation<2>>(Triangulation<2>::limit_level_difference_at_vertices);
-  GridGenerator::subdivided_hyper_rectangle(*triangulation, {mesh.radial_cells, mesh.angular_cells},
-                                            Point<2>(scene.inner_radius, numbers::PI / 2),
-                                            Point<2>(scene.outer_radius, 5 * numbers::PI / 2),
-                                            /*colorize=*/true);
+  const std::vector<double> radial(mesh.radial_cells,
+                                   (scene.outer_radius - scene.inner_radius) / mesh.radial_cells);
+  GridGenerator::subdivided_hyper_rectangle(
+      *triangulation, {radial, angular_steps(scene, parameters)},
+      Point<2>(scene.inner_radius, seam_angle),
+      Point<2>(scene.outer_radius, seam_angle + 2 * numbers::PI),
+      /*colorize=*/true);
   std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
   GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
                                     seam);

@@ -2,14 +2,15 @@
 // force, and not far above it.
 #include "certificate.h"
 
-#include "depth.h"
 #include "manufactured_scene.h"
+#include "potential_shapes.h"
 #include "test_scenes.h"
 #include "true_errors.h"
 #include "verification.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
 
 #include <gtest/gtest.h>
 
@@ -182,20 +183,48 @@ TEST(Certificate, OfFullContactEnclosesTheExactEnergy) {
   }
 }
 
-TEST(Depth, IsAccurateWhereItsDifferencesCancel) {
-  // At the critical speed b = 1, s(1 - y) = y^2 + y^3/3 + y^4/4 + ...
+TEST(PotentialShapes, AreNodalAndContainTheDepth) {
+  const Scene scene = full_circle(0.5, 1, 0.8, 0);
+  for (const unsigned int degree : {1, 2, 4}) {
+    const PotentialShapes shapes(scene, degree, 0.6, 0.75);
+    const dealii::QGaussLobatto<1> nodes(degree + 1);
+    for (unsigned int k = 0; k <= degree; ++k) {
+      const auto values = shapes.values(0.6 + 0.15 * nodes.point(k)[0]);
+      for (unsigned int i = 0; i <= degree; ++i)
+        EXPECT_NEAR(values[i], i == k ? 1 : 0, 1e-12);
+    }
+    // s and, from degree 2 on, int rho^2 alpha drho = r - omega^2 r^3/3
+    const auto depth = [](double r) { return -std::log(r) + 0.32 * r * r; };
+    const auto next = [](double r) { return r - 0.64 * r * r * r / 3; };
+    for (const double r : {0.61, 0.68, 0.74}) {
+      const auto values = shapes.values(r), slopes = shapes.depth_derivatives(r);
+      double s = 0, s_slope = 0, second = 0;
+      for (unsigned int i = 0; i <= degree; ++i) {
+        const double node = 0.6 + 0.15 * nodes.point(i)[0];
+        s += values[i] * depth(node);
+        s_slope += slopes[i] * depth(node);
+        second += values[i] * next(node);
+      }
+      EXPECT_NEAR(s, depth(r), 1e-13);
+      EXPECT_NEAR(s_slope, 1, 1e-11);
+      if (degree > 1) {
+        EXPECT_NEAR(second, next(r), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(PotentialShapes, AreAccurateInThinLayersAtTheCriticalSpeed) {
+  // b = 1, s(1 - y) = y^2 + y^3/3 + y^4/4 + ...
   const Scene scene = full_circle(0.5, 1, 1, 0);
   for (double y = 1e-12; y < 0.5; y *= 10) {
     const double inner = 1 - y, thickness = 1 - inner;
-    double series = 0;
+    double series = thickness * thickness;
     for (int k = 60; k >= 3; --k)
       series += std::pow(thickness, k) / k;
     // Points between inner and 1 are rounded to multiples of the unit in the last place.
-    EXPECT_NEAR(depth_between(scene, inner, 1) / (thickness * thickness + series), 1,
-                1e-13 + 4e-16 / thickness);
+    EXPECT_NEAR(PotentialShapes(scene, 2, inner, 1).depth() / series, 1, 1e-13 + 4e-16 / thickness);
   }
-  const Scene slow = full_circle(0.01, 1, 0.3, 0);
-  EXPECT_NEAR(depth_between(slow, 0.01, 1), std::log(100.) - 0.09 * (1 - 1e-4) / 2, 1e-13);
 }
 
 } // namespace

@@ -87,7 +87,9 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   EXPECT_EQ(json["mesh"]["dofs"], 4 * 2 * 60 * 2);
   EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
   EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-12);
-  EXPECT_EQ(json["work"]["factorisations"], 1);
+  EXPECT_EQ(json["work"]["factorisations"], 2); // of the stiffness and of the dual problem
+  EXPECT_LT(json["energy"]["lower_bound"], json["energy"]["upper_bound"]);
+  EXPECT_LT(json["error"]["certified_relative"], 0.1);
   unsigned long bytes = 0;
   for (const char* name : {"contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
     bytes += fs::file_size(directory / "out" / name);
@@ -265,9 +267,45 @@ TEST_F(Program, VerifiesAScene) {
   const double relative = json["error"]["exact_relative"];
   EXPECT_GT(relative, 1e-4);
   EXPECT_LT(relative, 3e-2);
+  EXPECT_GE(json["error"]["certified_energy_norm"].get<double>(),
+            json["error"]["exact_feasible_energy_norm"].get<double>());
   const Outcome unknown = shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=r'");
   EXPECT_EQ(unknown.exit_code, 0) << unknown.text;
   EXPECT_NE(unknown.text.find("No exact solution"), std::string::npos) << unknown.text;
+}
+
+TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
+  const std::string wanted = "$rollwave " + scene + " --set 'Mesh/Wanted relative error=3e-3'";
+  const Outcome reached = shell(wanted);
+  ASSERT_EQ(reached.exit_code, 0) << reached.text;
+  auto json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_LE(json["error"]["certified_relative"], 3e-3);
+  const auto& cycles = json["cycles"];
+  ASSERT_GT(cycles.size(), 2u);
+  for (unsigned int i = 0; i + 1 < cycles.size(); ++i)
+    EXPECT_GT(cycles[i]["certified_relative"], 3e-3);
+  for (unsigned int i = 1; i < cycles.size(); ++i)
+    EXPECT_LE(cycles[i]["contact_steps"], 4);
+  // What cannot be reached is told, and what was reached is kept.
+  const Outcome limited = shell(wanted + " --set 'Mesh/Adaptive cycles=1'");
+  EXPECT_EQ(limited.exit_code, 2) << limited.text;
+  EXPECT_NE(limited.text.find("wanted 0.003"), std::string::npos) << limited.text;
+  json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_EQ(json["cycles"].size(), 2u);
+  const Outcome refused = shell(wanted + " --set 'Certificate/Error bound=false'");
+  EXPECT_EQ(refused.exit_code, 1) << refused.text;
+  EXPECT_NE(refused.text.find("Wanted relative error"), std::string::npos) << refused.text;
+}
+
+TEST_F(Program, MeasuresAgainstAFinerSolutionWhereNoExactOneIsKnown) {
+  const Outcome outcome =
+      shell("$rollwave " + scene +
+            " --set 'Cylinder/Radial force=r*cos(z)' --set 'Study/True errors=true' --set "
+            "'Study/Reference unknowns=20000' --set 'Study/Vary=Mesh/Global refinements = 0 | 1 | "
+            "2'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(read("study.txt").find("Errors against an adaptive solution with"), std::string::npos);
+  EXPECT_NE(read("study.csv").find("\"an adaptive solution with"), std::string::npos);
 }
 
 TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {

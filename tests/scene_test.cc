@@ -138,6 +138,7 @@ TEST_P(Symmetry, RotationByWholeCellsTurnsTheSolution) {
     turned.zone_begin -= turn;
     turned.zone_end -= turn;
     turned.road = [&scene, turn](double z) { return scene.road(z + turn); };
+    turned.road_slope = [&scene, turn](double z) { return scene.road_slope(z + turn); };
     const Result result = simulate(turned, parameters).result;
     EXPECT_EQ(result.patch.active_nodes, original.patch.active_nodes);
     EXPECT_NEAR(result.patch.force, original.patch.force, 1e-12);
@@ -145,6 +146,39 @@ TEST_P(Symmetry, RotationByWholeCellsTurnsTheSolution) {
     ASSERT_EQ(result.contact_rows.size(), original.contact_rows.size());
     for (unsigned int i = 0; i < result.contact_rows.size(); ++i)
       EXPECT_NEAR(result.contact_rows[i].pressure, original.contact_rows[i].pressure, 1e-11);
+  }
+}
+
+TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
+  // Slanted, so that no two cells have the same indicator, with a force that hanging nodes see.
+  const auto slanted = [](double turn) {
+    Scene scene = make_scene(parameters_of({}));
+    scene.uniform_force.reset();
+    scene.force = [turn](double r, double z) { return r * std::cos(z + turn + 0.4) / 10; };
+    scene.road = [road = scene.road, turn](double z) {
+      return road(z + turn) + 0.03 * std::sin(z + turn);
+    };
+    scene.road_slope = [slope = scene.road_slope, turn](double z) {
+      return slope(z + turn) + 0.03 * std::cos(z + turn);
+    };
+    scene.zone_begin -= turn;
+    scene.zone_end -= turn;
+    return scene;
+  };
+  for (const char* indicator : {"residual", "certificate"}) {
+    const Parameters adaptive =
+        with(parameters, {"Mesh/Radial cells=3", "Mesh/Angular cells=40", "Mesh/Adaptive cycles=6",
+                          std::string("Mesh/Indicator=") + indicator});
+    const Result original = simulate(slanted(0), adaptive).result;
+    for (const int cells : {17, 20}) {
+      const Result turned = simulate(slanted(2 * PI * cells / 40), adaptive).result;
+      EXPECT_EQ(turned.mesh.dofs, original.mesh.dofs);
+      EXPECT_EQ(turned.patch.active_nodes, original.patch.active_nodes);
+      EXPECT_NEAR(turned.energy.value / original.energy.value, 1, 1e-12);
+      EXPECT_NEAR(turned.patch.force / original.patch.force, 1, 1e-11);
+      EXPECT_NEAR(turned.certified->upper_bound / original.certified->upper_bound, 1, 1e-12);
+      EXPECT_NEAR(turned.certified->energy_norm / original.certified->energy_norm, 1, 1e-6);
+    }
   }
 }
 
@@ -170,15 +204,20 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
       Parameters own = parameters;
       own.contact.method = method;
       Scene scene = make_scene(own);
+      scene.uniform_force.reset();
       scene.force = [](double r, double z) { return r * std::cos(z); };
       const Result original = simulate(scene, own).result;
-      const auto road = scene.road;
+      const auto road = scene.road, slope = scene.road_slope;
+      scene.road_slope = [slope, power](double z) { return std::ldexp(slope(z), power); };
       scene.road = [road, power](double z) { return std::ldexp(road(z), power); };
       scene.force = [power](double r, double z) { return std::ldexp(r * std::cos(z), power); };
       const Result scaled = simulate(scene, own).result;
       EXPECT_EQ(scaled.history.size(), original.history.size());
       EXPECT_EQ(scaled.patch.force, std::ldexp(original.patch.force, power));
       EXPECT_EQ(scaled.energy.value, std::ldexp(original.energy.value, 2 * power));
+      EXPECT_EQ(scaled.certified->lower_bound,
+                std::ldexp(original.certified->lower_bound, 2 * power));
+      EXPECT_EQ(scaled.certified->relative, original.certified->relative);
       for (unsigned int i = 0; i < scaled.contact_rows.size(); ++i) {
         EXPECT_EQ(scaled.contact_rows[i].pressure,
                   std::ldexp(original.contact_rows[i].pressure, power));
@@ -191,15 +230,24 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
 INSTANTIATE_TEST_SUITE_P(Degree, Symmetry, testing::Values(1, 2));
 
 TEST(Work, IsLeftOutWhereTheSceneDoesNotNeedIt) {
-  const Result plain = solve(parameters_of({}));
+  const std::string uncertified = "Certificate/Error bound=false";
+  const Result plain = solve(parameters_of({uncertified}));
   EXPECT_EQ(plain.work.load_assemblies, 0u);
   EXPECT_EQ(plain.work.forward_substitutions, 0u);
   EXPECT_EQ(plain.work.factorisations, 1u);
   EXPECT_EQ(plain.work.back_substitutions, 1u);
-  const Result loaded = solve(parameters_of({"Cylinder/Radial force=1"}));
+  const Result loaded = solve(parameters_of({uncertified, "Cylinder/Radial force=1"}));
   EXPECT_EQ(loaded.work.load_assemblies, 1u);
   EXPECT_EQ(loaded.work.forward_substitutions, 1u);
   EXPECT_EQ(loaded.work.factorisations, 1u);
+  const Result certified = solve(parameters_of({}));
+  EXPECT_EQ(certified.work.factorisations, 2u);
+  EXPECT_EQ(certified.work.stiffness_assemblies, 1u);
+  // A run that wants only its last mesh certified pays for that once.
+  const Result adaptive =
+      solve(parameters_of({"Mesh/Adaptive cycles=3", "Mesh/Indicator=residual"}));
+  EXPECT_EQ(adaptive.cycles.size(), 4u);
+  EXPECT_EQ(adaptive.work.factorisations, 5u);
   const Result free = solve(parameters_of({"Road/Distance=1.01"}));
   EXPECT_EQ(free.history.size(), 1u);
   EXPECT_EQ(free.energy.value, 0);
