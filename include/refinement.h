@@ -13,15 +13,22 @@ namespace rollwave {
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
 
 /**
- * Flags the cells of @p triangulation to refine by the indicators eta_K of its active cells. Bulk
- * marking is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with
- * sum eta_K^2 >= @p fraction of the whole.
+ * Refines the cells of @p triangulation by the indicators eta_K of its active cells. Bulk marking
+ * is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum
+ * eta_K^2 >= @p fraction of the whole.
  *
- * @return the number of active cells after the refinement, with the cells that must follow so that
- *         neighbours differ by one level at most
+ * A cell whose indicator is far above that of the last one marked is cut more than once: where u is
+ * smooth, elements of degree p leave eta_K^2 / 4^(p + 1) to each of the four parts, and a part that
+ * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
+ * cut gains no more than a factor of 2 in eta_K^2, are not behind the others.
+ *
+ * Neighbours differ by one level at most, over the seam and at corners as well.
+ *
+ * @return false, the mesh being left as it is, when no cell is marked or the mesh would have more
+ *         than @p most_cells active cells
  */
-unsigned int mark_cells(dealii::Triangulation<2>& triangulation,
-                        const std::vector<double>& indicators, Marking marking, double fraction);
+bool refine_mesh(dealii::Triangulation<2>& triangulation, const std::vector<double>& indicators,
+                 Marking marking, double fraction, unsigned int degree, double most_cells);
 
 } // namespace rollwave
 

@@ -6,6 +6,8 @@
 #include <deal.II/numerics/error_estimator.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace rollwave {
 
@@ -19,8 +21,34 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
   return {indicators.begin(), indicators.end()};
 }
 
-unsigned int mark_cells(Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                        Marking marking, double fraction) {
+namespace {
+
+/// The number of active cells after the refinement that is flagged.
+unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
+  unsigned int flagged = 0;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    flagged += cell->refine_flag_set();
+  return triangulation.n_active_cells() + 3 * flagged;
+}
+
+/// Cuts flagged cells; each part inherits its cell's square times @p left_to_part.
+void execute(Triangulation<2>& triangulation, Vector<double>& squares, double left_to_part) {
+  triangulation.clear_user_data();
+  for (const auto& cell : triangulation.active_cell_iterators())
+    cell->set_user_index(cell->active_cell_index() + 1);
+  triangulation.execute_coarsening_and_refinement();
+  Vector<double> inherited(triangulation.n_active_cells());
+  for (const auto& cell : triangulation.active_cell_iterators())
+    inherited(cell->active_cell_index()) =
+        cell->user_index() > 0 ? squares(cell->user_index() - 1)
+                               : left_to_part * squares(cell->parent()->user_index() - 1);
+  squares = inherited;
+}
+
+} // namespace
+
+bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
+                 Marking marking, double fraction, unsigned int degree, double most_cells) {
   Vector<double> squares(indicators.size());
   const double largest = *std::max_element(indicators.begin(), indicators.end());
   for (unsigned int i = 0; i < indicators.size() && largest > 0; ++i)
@@ -35,11 +63,28 @@ unsigned int mark_cells(Triangulation<2>& triangulation, const std::vector<doubl
   case Marking::all:
     triangulation.set_all_refine_flags();
   }
-  triangulation.prepare_coarsening_and_refinement();
-  unsigned int flagged = 0;
+  double last_marked = std::numeric_limits<double>::infinity();
   for (const auto& cell : triangulation.active_cell_iterators())
-    flagged += cell->refine_flag_set();
-  return triangulation.n_active_cells() + 3 * flagged;
+    if (cell->refine_flag_set())
+      last_marked = std::min(last_marked, squares(cell->active_cell_index()));
+
+  triangulation.prepare_coarsening_and_refinement();
+  const unsigned int n_cells = n_cells_to_come(triangulation);
+  if (n_cells == triangulation.n_active_cells() || n_cells > most_cells)
+    return false;
+  const double left_to_part = std::pow(4., -(degree + 1.));
+  execute(triangulation, squares, left_to_part);
+  while (marking != Marking::all && last_marked > 0) {
+    for (const auto& cell : triangulation.active_cell_iterators())
+      if (cell->user_index() == 0 && squares(cell->active_cell_index()) > last_marked)
+        cell->set_refine_flag();
+    triangulation.prepare_coarsening_and_refinement();
+    const unsigned int n_next = n_cells_to_come(triangulation);
+    if (n_next == triangulation.n_active_cells() || n_next > most_cells)
+      break;
+    execute(triangulation, squares, left_to_part);
+  }
+  return true;
 }
 
 } // namespace rollwave

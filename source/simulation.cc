@@ -184,22 +184,20 @@ std::vector<double> indicate(Indicator indicator, const Scene& scene, const Mesh
                                                             on_mesh.contact, solution.displacement);
 }
 
-/// Refines where @p indicators are large. False, and the mesh is left, when it would get too large
-/// or nothing is marked.
+/// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
+/// nothing is changed, when the mesh would get too large or no cell is marked.
 bool refine(const std::vector<double>& indicators, const Parameters& parameters,
             Solution& solution) {
   const Work::Phase phase(solution.result.work, "mesh");
-  auto& triangulation = *solution.triangulation;
-  const unsigned int n_cells = mark_cells(triangulation, indicators, parameters.mesh.marking,
-                                          parameters.mesh.marked_fraction);
-  const double unknowns =
-      static_cast<double>(n_cells) * parameters.mesh.degree * parameters.mesh.degree;
-  if (n_cells == triangulation.n_active_cells() || unknowns > parameters.mesh.most_unknowns)
+  const auto& mesh = parameters.mesh;
+  std::unique_ptr<RingSpace> old_space = std::move(solution.space);
+  if (!refine_mesh(*solution.triangulation, indicators, mesh.marking, mesh.marked_fraction,
+                   mesh.degree, mesh.most_unknowns / (1. * mesh.degree * mesh.degree))) {
+    solution.space = std::move(old_space);
     return false;
+  }
   solution.certificate.reset();
   solution.result.certified.reset();
-  solution.space.reset();
-  triangulation.execute_coarsening_and_refinement();
   return true;
 }
 
