@@ -86,6 +86,7 @@ struct Parameters {
 
   struct {
     bool error_bound = true;
+    bool load_bounds = false;
   } certificate;
 
   struct {

@@ -33,6 +33,13 @@ struct CertifiedError {
   double norm_squared; ///< a(v, v)
 };
 
+/// Guaranteed bounds of the work-conjugate load G, see bound_load().
+struct LoadBounds {
+  double lower;
+  double upper;
+  double step; ///< by which the road was moved, a length
+};
+
 /// One mesh of an adaptive run.
 struct CycleFigures {
   unsigned int cells;
@@ -93,6 +100,7 @@ struct Result {
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;
+  std::optional<LoadBounds> load_bounds;
   std::optional<TrueErrors> errors; ///< where a comparison with the exact solution was asked for
   std::vector<CycleFigures> cycles; ///< one for each mesh
   std::vector<ContactStep> history; ///< on the last mesh

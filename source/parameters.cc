@@ -238,6 +238,11 @@ void declare(Declarations& keys, Parameters& p) {
                         "\"true\" or \"false\": whether to compute a guaranteed bound of the error "
                         "in the energy norm, with bounds of the energy from both sides; costs "
                         "about a second linear solve.");
+  keys.add_choice<bool>("Load bounds", p.certificate.load_bounds,
+                        {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to bound the work-conjugate load G from "
+                        "both sides, by the certified energies of two more road distances; costs "
+                        "two more scenes on the last mesh.");
   keys.leave();
 
   keys.enter("Contact");

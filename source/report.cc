@@ -105,6 +105,9 @@ void report_result(std::ostream& out, const Result& result) {
     out << "Certified  J from " << std::setprecision(9) << certified.lower_bound << " to "
         << certified.upper_bound << ", error in the energy norm at most " << std::setprecision(3)
         << certified.energy_norm << ", relative " << certified.relative << '\n';
+    if (result.load_bounds)
+      out << "           G from " << std::setprecision(9) << result.load_bounds->lower << " to "
+          << result.load_bounds->upper << '\n';
   }
   out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
       << ", penetration " << result.residuals.penetration << ", negative pressure "

@@ -79,6 +79,9 @@ void check_road(const Parameters& parameters) {
 void check_certificate(const Parameters& parameters) {
   if (parameters.certificate.error_bound)
     return;
+  if (parameters.certificate.load_bounds)
+    throw BadInput(refusal(parameters.settings, "Certificate", "Load bounds",
+                           "they need the error bound; set Certificate/Error bound = true"));
   if (parameters.mesh.wanted_relative_error > 0)
     throw BadInput(refusal(parameters.settings, "Mesh", "Wanted relative error",
                            "it is judged by the certificate; set Certificate/Error bound = true"));

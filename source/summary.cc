@@ -37,6 +37,10 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                      {"work_conjugate_load", patch.work_conjugate_load},
                      {"peak_pressure", patch.peak_pressure},
                      {"active_nodes", patch.active_nodes}};
+  if (result.load_bounds) {
+    json["contact"]["work_conjugate_load_lower_bound"] = result.load_bounds->lower;
+    json["contact"]["work_conjugate_load_upper_bound"] = result.load_bounds->upper;
+  }
   json["energy"] = {{"value", result.energy.value}, {"norm_squared", result.energy.norm_squared}};
   if (result.certified) {
     json["energy"]["lower_bound"] = result.certified->lower_bound;

@@ -1,0 +1,33 @@
+#ifndef ROLLWAVE_MESH_SOLUTION_H
+#define ROLLWAVE_MESH_SOLUTION_H
+
+#include "contact_solver.h"
+#include "result.h"
+
+#include <optional>
+
+namespace rollwave {
+
+/// The discrete problem and its solution on one mesh.
+struct MeshSolution {
+  ContactProblem problem;
+  ContactSolution contact;
+  FieldVector displacement;        ///< u_h
+  FieldVector stiffness_times_u;   ///< K u_h
+  std::optional<FieldVector> load; ///< nullopt without force
+};
+
+/// Solves @p scene on @p space by the methods of @p parameters, beginning with the contact
+/// pressures
+/// @p start (none when it has no entries).
+/// @throws BadInput where the force is not finite, NotSolved when a solver fails.
+MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+                           const dealii::Vector<double>& start, Work& work);
+
+/// Fills in what @p result tells of a solution on one mesh, and adds to its cycles.
+void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
+             Result& result);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,120 @@
+#include "mesh_solution.h"
+
+#include "assembly.h"
+#include "direct_solver.h"
+#include "scene.h"
+
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+MeshFigures describe_mesh(const RingSpace& space) {
+  const auto& triangulation = space.dof_handler().get_triangulation();
+  return {space.dof_handler().get_fe().degree,
+          triangulation.n_active_cells(),
+          space.n_unknowns(),
+          static_cast<unsigned int>(space.contact_nodes().size()),
+          GridTools::minimal_cell_diameter(triangulation, space.mapping()),
+          GridTools::maximal_cell_diameter(triangulation, space.mapping())};
+}
+
+/// part / whole, where a part of nothing is nothing.
+double relative(double part, double whole) {
+  return part == 0 ? 0 : part / whole;
+}
+
+Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
+                            const ContactSolution& solution, const FieldVector& stiffness_times_u,
+                            const std::optional<FieldVector>& load) {
+  const auto& [displacement, force] = solution.state;
+  FieldVector imbalance = stiffness_times_u;
+  if (load)
+    imbalance -= *load;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    imbalance(space.contact_nodes()[i].dof) += force(i);
+
+  double penetration = 0, negative_pressure = 0, highest_pressure = 0;
+  double force_times_gap = 0, force_times_road = 0;
+  for (unsigned int i = 0; i < problem.size(); ++i) {
+    const double gap = problem.road(i) - displacement(i);
+    const double pressure = force(i) / problem.weight(i);
+    penetration = std::max(penetration, -gap);
+    negative_pressure = std::max(negative_pressure, -pressure);
+    highest_pressure = std::max(highest_pressure, std::abs(pressure));
+    force_times_gap += std::abs(force(i) * gap);
+    force_times_road += std::abs(force(i) * problem.road(i));
+  }
+  return {relative(imbalance.l2_norm(), std::max(load ? load->l2_norm() : 0., force.l2_norm())),
+          relative(penetration, displacement.linfty_norm()),
+          relative(negative_pressure, highest_pressure),
+          relative(force_times_gap, force_times_road)};
+}
+
+std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
+                                         const ContactState& state) {
+  std::vector<ContactRow> rows;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i),
+                    problem.road(i) - state.displacement(i), state.force(i) / problem.weight(i)});
+  return rows;
+}
+
+std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVector& field) {
+  std::vector<SurfacePoint> points;
+  for (const SurfaceNode& node : space.surface_nodes())
+    points.push_back({node.angle, field(node.dof)});
+  return points;
+}
+
+} // namespace
+
+MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+                           const Vector<double>& start, Work& work) {
+  MeshSolution solution;
+  if (scene.force) {
+    const Work::Phase phase(work, "assembly");
+    solution.load = assemble_load(space, scene);
+    ++work.load_assemblies;
+  }
+  DirectSolver solver(space, scene, solution.load, work);
+  solution.problem = make_contact_problem(space, scene);
+  {
+    const Work::Phase phase(work, "contact");
+    solution.contact = solve_contact(solver, solution.problem, parameters, start);
+  }
+  solution.displacement = solver.displacement_field(solution.contact.state);
+  const Work::Phase phase(work, "measurement");
+  solution.stiffness_times_u = solver.apply(solution.displacement);
+  return solution;
+}
+
+void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
+             Result& result) {
+  const Work::Phase phase(result.work, "measurement");
+  const auto& [problem, contact, displacement, stiffness_times_u, load] = solution;
+  const double norm_squared = displacement * stiffness_times_u;
+  result.mesh = describe_mesh(space);
+  result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);
+  result.energy = {norm_squared / 2 - (load ? displacement * *load : 0.), norm_squared};
+  result.residuals = measure_residuals(space, problem, contact, stiffness_times_u, load);
+  result.contact_rows = tabulate_contact(space, problem, contact.state);
+  result.surface = tabulate_surface(space, displacement);
+  result.history = contact.history;
+  result.rho = contact.rho;
+  result.remark = contact.remark;
+  result.cycles.push_back({result.mesh.cells,
+                           result.mesh.dofs,
+                           static_cast<unsigned int>(result.history.size()),
+                           0,
+                           {}});
+}
+
+} // namespace rollwave
