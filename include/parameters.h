@@ -52,7 +52,7 @@ enum class Marking {
   all
 };
 
-enum class OutputFile { summary, contact, parameters, solution, plot };
+enum class OutputFile { summary, contact, parameters, solution, plot, mesh };
 
 /**
  * All that a parameter file can say, one member for each key, in the file's sections. Lengths share

@@ -8,6 +8,16 @@
 
 namespace rollwave {
 
+namespace {
+
+/// J_order(x) in double precision throughout: long double would triple its cost.
+double bessel_j(double order, double x) {
+  using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  return boost::math::cyl_bessel_j(order, x, Policy());
+}
+
+} // namespace
+
 std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double x) {
   std::vector<double> bessel(count);
   if (x == 0) {
@@ -19,9 +29,9 @@ std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double 
   // The recurrence of Bessel functions is stable upwards below the order x, downwards above.
   const unsigned int last = count - 1;
   if (x >= last + nu) {
-    bessel[0] = boost::math::cyl_bessel_j(nu, x);
+    bessel[0] = bessel_j(nu, x);
     if (count > 1)
-      bessel[1] = boost::math::cyl_bessel_j(nu + 1, x);
+      bessel[1] = bessel_j(nu + 1, x);
     for (unsigned int n = 1; n + 1 < count; ++n)
       bessel[n + 1] = 2 * (n + nu) / x * bessel[n] - bessel[n - 1];
   } else {
@@ -45,7 +55,7 @@ std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double 
     for (unsigned int n = 1; n < std::min(count, 3u); ++n)
       if (std::abs(bessel[n]) > std::abs(bessel[anchor]))
         anchor = n;
-    const double factor = boost::math::cyl_bessel_j(anchor + nu, x) / bessel[anchor];
+    const double factor = bessel_j(anchor + nu, x) / bessel[anchor];
     for (double& value : bessel)
       value *= factor;
   }

@@ -106,7 +106,14 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
 
   const ReferenceMatrices reference(element.degree);
   const QGauss<1> gauss(element.degree + 2);
-  const auto angular = lobatto_lagrange(element.degree);
+  FullMatrix<double> angular_derivative(gauss.size(), n); // on [0, 1]
+  const auto lagrange = lobatto_lagrange(element.degree);
+  std::vector<double> both(2);
+  for (unsigned int p = 0; p < gauss.size(); ++p)
+    for (unsigned int j = 0; j < n; ++j) {
+      lagrange[j].value(gauss.point(p)[0], both);
+      angular_derivative(p, j) = both[1];
+    }
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   TripletAssembler assembler(space, constraints, unknown_of_dof);
   FullMatrix<double> cell_matrix(dofs_per_cell);
@@ -140,7 +147,7 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
           const double factor = column.integral(radial.r[q]) / radial.r[q] * radial.weight[q] *
                                 gauss.weight(p); // d/dz and dz cancel in length
           for (unsigned int j = 0; j < n; ++j) {
-            const double slope = angular[j].derivative().value(gauss.point(p)[0]) * factor;
+            const double slope = angular_derivative(p, j) * factor;
             for (unsigned int i = 0; i < n; ++i)
               cell_vector(i + n * j) += radial.potential(q, i) * slope;
           }

@@ -2,6 +2,7 @@
 
 #include "atomic_file.h"
 #include "errors.h"
+#include "mesh_plot.h"
 #include "scene_plot.h"
 #include "solution_vtu.h"
 #include "summary.h"
@@ -66,12 +67,16 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       work.bytes_written += file.commit();
       written.files.push_back(directory / "solution.vtu");
     }
-    if (parameters.wants(OutputFile::plot)) {
-      if (const auto svg = plot_scene(scene, parameters, solution.result))
-        add("scene.svg", *svg);
+    const auto add_picture = [&](const std::string& name, const std::optional<std::string>& svg) {
+      if (svg)
+        add(name, *svg);
       else
-        written.remarks.push_back("scene.svg was not drawn: is gnuplot installed?");
-    }
+        written.remarks.push_back(name + " was not drawn: is gnuplot installed?");
+    };
+    if (parameters.wants(OutputFile::plot))
+      add_picture("scene.svg", plot_scene(scene, parameters, solution.result));
+    if (parameters.wants(OutputFile::mesh))
+      add_picture("mesh.svg", plot_mesh(scene, solution));
   }
   if (parameters.wants(OutputFile::summary))
     add("summary.json", summary_json(scene, parameters, solution.result));

@@ -150,7 +150,8 @@ const std::map<std::string, OutputFile> output_files = {{"summary", OutputFile::
                                                         {"contact", OutputFile::contact},
                                                         {"parameters", OutputFile::parameters},
                                                         {"solution", OutputFile::solution},
-                                                        {"plot", OutputFile::plot}};
+                                                        {"plot", OutputFile::plot},
+                                                        {"mesh", OutputFile::mesh}};
 
 std::vector<OutputFile> parse_files(const std::string& text) {
   std::vector<OutputFile> files;
@@ -304,7 +305,8 @@ void declare(Declarations& keys, Parameters& p) {
       "Files", "summary, contact, parameters, solution, plot",
       [&p](const std::string& text) { p.output.files = parse_files(text); },
       "The files to write: any of summary (summary.json), contact (contact.csv), parameters "
-      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study).");
+      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study), mesh "
+      "(mesh.svg, the edges of the cells).");
   keys.leave();
 }
 

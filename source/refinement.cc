@@ -27,7 +27,7 @@ namespace {
 unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
   unsigned int flagged = 0;
   for (const auto& cell : triangulation.active_cell_iterators())
-    flagged += cell->refine_flag_set();
+    flagged += cell->refine_flag_set() ? 1 : 0; // a refinement case, not a bool
   return triangulation.n_active_cells() + 3 * flagged;
 }
 
