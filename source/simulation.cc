@@ -67,7 +67,7 @@ std::vector<double> indicate(Indicator indicator, const Scene& scene, const Mesh
   const Work::Phase phase(solution.result.work, "indicator");
   return indicator == Indicator::kelly ? kelly_indicator(*solution.space, on_mesh.displacement)
                                        : residual_indicator(*solution.space, scene, on_mesh.problem,
-                                                            on_mesh.contact, solution.displacement);
+                                                            on_mesh.contact, on_mesh.displacement);
 }
 
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and

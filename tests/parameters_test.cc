@@ -126,10 +126,24 @@ TEST(Parameters, RefuseAForceThatIsNotFinite) {
   EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
 }
 
-TEST(Parameters, RefuseAZoneBetweenTwoNodes) {
+TEST(Parameters, RefuseAnAutomaticZoneBetweenTwoNodes) {
+  // phi < b holds within 0.032 of the lowest point, which lies in the middle of a cell.
   const Parameters parameters =
-      parameters_of({"Road/Contact zone=4.7, 4.71", "Mesh/Angular cells=20"});
+      parameters_of({"Road/Distance=1.999", "Mesh/Degree=1", "Mesh/Angular cells=21"});
   EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
+}
+
+TEST(Parameters, EndsOfAGivenZoneAreVertices) {
+  for (const auto& [zone, cells] : std::vector<std::pair<std::string, std::string>>{
+           {"4.7, 4.71", "20"}, {"3.2, 6.2", "3"}, {"4.1, 5.2", "31"}}) {
+    const Parameters parameters =
+        parameters_of({"Road/Contact zone=" + zone, "Mesh/Angular cells=" + cells});
+    const Scene scene = make_scene(parameters);
+    const Result result = simulate(scene, parameters).result;
+    EXPECT_NEAR(result.contact_rows.front().angle, scene.zone_begin, 1e-13);
+    EXPECT_NEAR(result.contact_rows.back().angle, scene.zone_end, 1e-13);
+    EXPECT_EQ(result.mesh.cells, 16u * std::stoi(cells));
+  }
 }
 
 } // namespace
