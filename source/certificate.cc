@@ -50,18 +50,18 @@ std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& sc
   return pressures;
 }
 
-/// Shape functions in z at one point of a cell.
+/// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
+  double t;
   std::vector<double> value;
-  std::vector<double> derivative; ///< d/dz
+  std::vector<double> derivative; ///< d/dt
 
-  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t,
-                double length) {
+  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t) : t(t) {
     std::vector<double> both(2);
     for (const auto& shape : lagrange) {
       shape.value(t, both);
       value.push_back(both[0]);
-      derivative.push_back(both[1] / length);
+      derivative.push_back(both[1]);
     }
   }
 };
@@ -140,25 +140,22 @@ public:
     }
   }
 
-  /// At t = (z - begin)/(end - begin), with the correction c of v on the surface.
-  LineIntegrals on_line(double t, const FeasibleTrace::Correction& correction) {
-    return on_line(t, AngularShapes(lagrange, t, high[1] - low[1]), correction);
-  }
-
-  LineIntegrals on_line(double t, const AngularShapes& angular,
+  /// On one line, with the correction c of v on the surface.
+  LineIntegrals on_line(const AngularShapes& angular,
                         const FeasibleTrace::Correction& correction) const {
+    const double length = high[1] - low[1];
     // Coefficients along the line of u, psi and their angular derivatives
     std::array<double, 9> line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
         line_u[i] += angular.value[j] * u[i + n * j];
-        line_u_z[i] += angular.derivative[j] * u[i + n * j];
+        line_u_z[i] += angular.derivative[j] / length * u[i + n * j];
         line_psi[i] += angular.value[j] * psi[i + n * j];
-        line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
+        line_psi_z[i] += angular.derivative[j] / length * psi[i + n * j];
       }
     }
-    const double z = low[1] + t * (high[1] - low[1]);
+    const double z = low[1] + angular.t * length;
     const double height = high[0] - low[0];
     const ForceColumns::Column* const column = columns ? &columns->at(z) : nullptr;
 
@@ -237,6 +234,11 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
 
   Integrator integrator(space, scene, displacement, potential, shapes,
                         columns ? &*columns : nullptr);
+  // Without force and off the surface everything is a polynomial of degree 2 p in z.
+  const QGauss<1> inside(columns ? degree + 2 : degree + 1);
+  std::vector<AngularShapes> lines;
+  for (const auto& point : inside.get_points())
+    lines.emplace_back(integrator.angular_shapes(), point[0]);
   std::vector<double> cell_bounds(triangulation.n_active_cells());
   double bound_squared = 0, norm_squared = 0, work_of_force = 0, l2_squared = 0, force_error = 0;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -246,8 +248,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     double contact_work = 0;
     const int face = face_of_cell[cell->active_cell_index()];
     if (face < 0)
-      for (unsigned int p = 0; p < gauss.size(); ++p)
-        sums.add(integrator.on_line(gauss.point(p)[0], {0, 0, 0}), gauss.weight(p) * length);
+      for (unsigned int p = 0; p < inside.size(); ++p)
+        sums.add(integrator.on_line(lines[p], {0, 0, 0}), inside.weight(p) * length);
     else
       for (const auto& piece : trace.pieces(face))
         for (unsigned int p = 0; p < gauss.size(); ++p) {
@@ -255,7 +257,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
           const double t = piece.t_begin + piece_length * gauss.point(p)[0];
           const double weight = gauss.weight(p) * piece_length * length;
           const auto correction = trace.correction(face, piece, t);
-          sums.add(integrator.on_line(t, correction), weight);
+          sums.add(integrator.on_line({integrator.angular_shapes(), t}, correction), weight);
           contact_work += weight * scene.outer_radius * pressures[face](t) * correction.gap;
         }
     const double cell_squared = sums.bound_squared + 2 * contact_work;

@@ -149,8 +149,10 @@ Reference discrete_reference(const Scene& scene, const RingSpace& space, const R
     const ContactRow& row = result.contact_rows[i];
     nodes.push_back({row.angle, row.pressure * space.contact_nodes()[i].weight, row.pressure});
   }
-  const bool is_cut = result.patch.ends && (result.patch.ends->first == scene.zone_begin ||
-                                            result.patch.ends->second == scene.zone_end);
+  // Where the zone cuts the contact short, the pressure is infinite.
+  const auto [left, right] = result.patch.ends.value_or(std::pair(0., 0.));
+  const bool is_cut_left = result.patch.ends && left == scene.zone_begin;
+  const bool is_cut_right = result.patch.ends && right == scene.zone_end;
   Reference reference;
   reference.name = name;
   reference.force = result.patch.force;
@@ -175,18 +177,21 @@ Reference discrete_reference(const Scene& scene, const RingSpace& space, const R
     }
     return sum;
   };
-  reference.pressure = [nodes](double z) -> std::optional<double> {
-    const auto right = std::lower_bound(
-        nodes.begin(), nodes.end(), z, [](const Node& node, double at) { return node.angle < at; });
-    if (right == nodes.end() || (right == nodes.begin() && right->angle > z))
+  reference.pressure = [=, left = left, right_end = right](double z) -> std::optional<double> {
+    if ((is_cut_left && std::abs(z - left) < 1e-12) ||
+        (is_cut_right && std::abs(z - right_end) < 1e-12))
+      return {};
+    const auto next = std::lower_bound(nodes.begin(), nodes.end(), z,
+                                       [](const Node& node, double at) { return node.angle < at; });
+    if (next == nodes.end() || (next == nodes.begin() && next->angle > z))
       return 0;
-    if (right->angle == z)
-      return right->pressure;
-    const Node& left = *(right - 1);
-    const double t = (z - left.angle) / (right->angle - left.angle);
-    return (1 - t) * left.pressure + t * right->pressure;
+    if (next->angle == z)
+      return next->pressure;
+    const Node& before = *(next - 1);
+    const double t = (z - before.angle) / (next->angle - before.angle);
+    return (1 - t) * before.pressure + t * next->pressure;
   };
-  reference.expected_order = [is_cut](unsigned int degree) {
+  reference.expected_order = [is_cut = is_cut_left || is_cut_right](unsigned int degree) {
     return order_on_uniform_meshes(is_cut, degree);
   };
   return reference;

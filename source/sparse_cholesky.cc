@@ -3,6 +3,7 @@
 #include "errors.h"
 
 #include <cholmod.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <numeric>
@@ -99,7 +100,25 @@ SparseCholesky::SparseCholesky(int n, int m, const LowerTriplets& triplets)
 
 SparseCholesky::~SparseCholesky() = default;
 
+namespace {
+
+/// Makes parallel regions of OpenMP run on one thread while it lives. CHOLMOD asks for four in each
+/// supernode, besides the threads of BLAS, and on few cores waits longer for them than they save.
+class OneThread {
+public:
+  OneThread() { omp_set_max_active_levels(0); }
+  ~OneThread() { omp_set_max_active_levels(levels); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+private:
+  const int levels = omp_get_max_active_levels();
+};
+
+} // namespace
+
 void SparseCholesky::factorise() {
+  const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod->check("factorisation");
 }

@@ -50,7 +50,7 @@ std::string text_of(const std::optional<double>& value, int digits) {
 
 /// log(e / e') / log(h / h') for two runs of one curve, "-" where there is none.
 std::string observed_order(const StudyRun& before, const StudyRun& run, const std::string& error) {
-  if (!has_errors(before) || !has_errors(run) || before.curve() != run.curve() ||
+  if (!before.figure(error) || !run.figure(error) || before.curve() != run.curve() ||
       before.figure("dofs") == run.figure("dofs"))
     return "-";
   const double errors = *before.figure(error) / *run.figure(error);

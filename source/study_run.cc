@@ -2,6 +2,7 @@
 
 #include "memory.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -95,7 +96,8 @@ std::map<std::string, double> figures_of(const Result& result) {
   if (result.errors) {
     figures["error_energy_norm"] = result.errors->energy_norm;
     figures["error_relative"] = result.errors->relative_energy_norm;
-    figures["error_l2_norm"] = result.errors->l2_norm;
+    if (std::isfinite(result.errors->l2_norm))
+      figures["error_l2_norm"] = result.errors->l2_norm;
     figures["error_pressure"] = result.errors->pressure;
     figures["error_force"] = result.errors->force;
     figures["error_energy"] = result.errors->energy;

@@ -297,6 +297,21 @@ TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
   EXPECT_NE(refused.text.find("Wanted relative error"), std::string::npos) << refused.text;
 }
 
+TEST_F(Program, AdaptivePaperFiguresNeedFewUnknowns) {
+  for (const char* file : {"figure-4-adaptive.prm", "figure-5-adaptive.prm"}) {
+    const Outcome outcome =
+        shell("$rollwave --verify '" ROLLWAVE_PRM_DIRECTORY "/" + std::string(file) +
+              "' --set Output/Files=summary --output '" + (directory / "out").string() + "'");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+    const auto json = nlohmann::json::parse(read("summary.json"));
+    EXPECT_LE(json["mesh"]["dofs"], 20000) << file;
+    EXPECT_LE(json["error"]["exact_relative"], 1e-4) << file;
+    const auto& cycles = json["cycles"];
+    for (unsigned int i = 1; i < cycles.size(); ++i)
+      EXPECT_LE(cycles[i]["contact_steps"], 4) << file;
+  }
+}
+
 TEST_F(Program, MeasuresAgainstAFinerSolutionWhereNoExactOneIsKnown) {
   const Outcome outcome =
       shell("$rollwave " + scene +

@@ -2,6 +2,7 @@
 
 Usage: solution_vtu_test.py PROGRAM FILE.prm DEGREE
 """
+import json
 import math
 import subprocess
 import sys
@@ -23,12 +24,14 @@ with tempfile.TemporaryDirectory() as directory:
     subprocess.run(
         [program, scene, "--output", directory, "--set", f"Mesh/Degree={degree}",
          "--set", "Mesh/Radial cells=8", "--set", f"Mesh/Angular cells={angular_cells}",
-         "--set", "Output/Files=solution"],
+         "--set", "Output/Files=solution, summary"],
         check=True, stdout=subprocess.DEVNULL)
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(directory + "/solution.vtu")
     reader.Update()
     grid = reader.GetOutput()
+    with open(directory + "/summary.json") as file:
+        summary = json.load(file)
 
 nodes_per_cell = (degree + 1) ** 2
 check(grid.GetNumberOfCells() == 8 * angular_cells, "number of cells")
@@ -46,6 +49,18 @@ displacement, pressure = fields.GetArray("displacement"), fields.GetArray("press
 check(displacement is not None and pressure is not None, "fields by name")
 low, high = displacement.GetRange()
 check(abs(low - (distance - 1)) < 1e-6 and high <= 1e-6, "range of the displacement")
+
+# The squares of the cells' parts of the bound add up to twice the width of the energy bounds.
+certified = fields.GetArray("certified_error")
+squares = 0
+for cell in range(grid.GetNumberOfCells()):
+    points = grid.GetCell(cell).GetPointIds()
+    values = {certified.GetValue(points.GetId(k)) for k in range(points.GetNumberOfIds())}
+    check(len(values) == 1, "one bound for each cell")
+    squares += values.pop() ** 2
+energy = summary["energy"]
+check(abs(squares / (2 * (energy["upper_bound"] - energy["lower_bound"])) - 1) < 1e-5,
+      "sum of the cells' bounds")
 
 surface = []
 for i in range(grid.GetNumberOfPoints()):
