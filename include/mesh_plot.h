@@ -1,7 +1,8 @@
 #ifndef ROLLWAVE_MESH_PLOT_H
 #define ROLLWAVE_MESH_PLOT_H
 
-#include "simulation.h"
+#include "scene.h"
+#include "solution.h"
 
 #include <optional>
 #include <string>

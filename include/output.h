@@ -1,7 +1,8 @@
 #ifndef ROLLWAVE_OUTPUT_H
 #define ROLLWAVE_OUTPUT_H
 
-#include "simulation.h"
+#include "scene.h"
+#include "solution.h"
 
 #include <filesystem>
 #include <iosfwd>

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_SOLUTION_VTU_H
 #define ROLLWAVE_SOLUTION_VTU_H
 
-#include "simulation.h"
+#include "solution.h"
 
 #include <iosfwd>
 

@@ -175,8 +175,10 @@ public:
       double radial_flux = -psi_z / r;
       if (column) {
         radial_flux += column->integral(r) / r;
-        const double f = scene.force(r, std::fmod(z, 2 * numbers::PI));
-        const double error = f - column->force(r);
+        const double interpolated = column->force(r);
+        const double f =
+            columns->are_exact() ? interpolated : scene.force(r, std::fmod(z, 2 * numbers::PI));
+        const double error = f - interpolated;
         sums.work_of_force += weight * r * f * v;
         sums.l2_squared += weight * r * v * v;
         sums.force_error += weight * r * error * error;
@@ -234,8 +236,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
 
   Integrator integrator(space, scene, displacement, potential, shapes,
                         columns ? &*columns : nullptr);
-  // Without force and off the surface everything is a polynomial of degree 2 p in z.
-  const QGauss<1> inside(columns ? degree + 2 : degree + 1);
+  // Off the surface everything but an uneven force is a polynomial of degree 2 p in z.
+  const QGauss<1> inside(columns && !columns->are_exact() ? degree + 2 : degree + 1);
   std::vector<AngularShapes> lines;
   for (const auto& point : inside.get_points())
     lines.emplace_back(integrator.angular_shapes(), point[0]);

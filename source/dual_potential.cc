@@ -9,6 +9,9 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <array>
+#include <map>
+
 namespace rollwave {
 
 using namespace dealii;
@@ -54,12 +57,16 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
         constraints.set_inhomogeneity(dofs[k], surface_values[i][k]);
       }
   }
-  tie_edges(
-      space.dof_handler(),
-      [&scene, degree = space.dof_handler().get_fe().degree](double r, double begin, double end) {
-        return PotentialShapes(scene, degree, begin, end).values(r);
-      },
-      growth, constraints);
+  // The mesh has many hanging nodes, but they lie at few places.
+  std::map<std::array<double, 3>, std::vector<double>> known;
+  const auto shape_values = [&](double r, double begin, double end) {
+    const auto [entry, is_new] = known.try_emplace({{r, begin, end}});
+    if (is_new)
+      entry->second =
+          PotentialShapes(scene, space.dof_handler().get_fe().degree, begin, end).values(r);
+    return entry->second;
+  };
+  tie_edges(space.dof_handler(), shape_values, growth, constraints);
   constraints.close();
   return constraints;
 }
@@ -138,6 +145,9 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
     }
     assembler.add(ordered, cell_matrix);
 
+    // Only cells at the surface and the seam feel the values prescribed there.
+    if (!columns && cell_lift.all_zero())
+      continue;
     cell_matrix.vmult(cell_vector, cell_lift);
     cell_vector *= -1;
     if (columns)
