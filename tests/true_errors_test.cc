@@ -80,6 +80,35 @@ INSTANTIATE_TEST_SUITE_P(
                               {0.1, 0.1}}),
     [](const auto& info) { return info.param.name; });
 
+TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
+  for (const char* scene_key : {"Cylinder/Angular velocity=0", "Cylinder/Angular velocity=1",
+                                "Road/Contact zone=4.450589592585541, 4.974188368183839"})
+    for (const int degree : {1, 2}) {
+      const Parameters parameters = parameters_of(
+          {scene_key, "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
+           "Mesh/Angular cells=24", "Mesh/Indicator=residual", "Mesh/Adaptive cycles=1000"});
+      const auto exact = find_exact_solution(make_scene(parameters), parameters);
+      ASSERT_TRUE(exact);
+      Reference reference = exact_reference(*exact);
+      reference.l2_distance = {};
+      double errors[2], unknowns[2];
+      for (const int i : {0, 1}) {
+        const Parameters own =
+            with(parameters, {i == 0 ? "Mesh/Most unknowns=3000" : "Mesh/Most unknowns=60000"});
+        const Solution solution = simulate(make_scene(own), own);
+        errors[i] = measure_true_errors(*solution.space, solution.displacement, solution.result,
+                                        solution.certificate, reference)
+                        .energy_norm;
+        unknowns[i] = solution.result.mesh.dofs;
+      }
+      const double order =
+          2 * std::log(errors[0] / errors[1]) / std::log(unknowns[1] / unknowns[0]);
+      // Above the degree where the ends still hold most of the error of the coarser mesh.
+      EXPECT_GT(order, 0.93 * degree) << scene_key;
+      EXPECT_LT(order, 1.35 * degree) << scene_key;
+    }
+}
+
 TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
   // The identity against quadrature of the gradient of u - u_h, u from its modes, on a mesh so
   // coarse that the modes left out do not matter.
