@@ -40,10 +40,13 @@ FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const F
       const auto found = is_active.find(dof);
       n_active += found != is_active.end() && found->second;
     }
-    // The edge and the zone as stretches of t; beyond round-off they overlap in one stretch.
-    const double length = edge.end - edge.begin;
-    const double zone_begin = std::max(0., (scene.zone_begin - edge.begin) / length);
-    const double zone_end = std::min(1., (scene.zone_end - edge.begin) / length);
+    // The part of the edge in the zone, in terms of t. A zone that ends within round-off of a
+    // vertex ends there.
+    const double length = edge.end - edge.begin, tolerance = 1e-12 / length;
+    double zone_begin = (scene.zone_begin - edge.begin) / length;
+    double zone_end = (scene.zone_end - edge.begin) / length;
+    zone_begin = zone_begin < tolerance ? 0 : zone_begin;
+    zone_end = zone_end > 1 - tolerance ? 1 : zone_end;
     if (n_active == face.dofs.size() && zone_begin == 0 && zone_end == 1)
       edge.pieces = {{Piece::Kind::touching, 0, 1}};
     else if (zone_begin < zone_end)

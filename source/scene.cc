@@ -154,11 +154,13 @@ Scene make_scene(const Parameters& parameters) {
   scene.inner_radius = parameters.cylinder.inner_radius;
   scene.outer_radius = parameters.cylinder.outer_radius;
   scene.angular_velocity = parameters.cylinder.angular_velocity;
-  scene.uniform_force = constant_force(parameters);
-  if (!scene.uniform_force)
+  const std::optional<double> constant = constant_force(parameters);
+  if (!constant)
     scene.force = parse_force(parameters);
-  else if (*scene.uniform_force != 0) // for 0 no load is ever assembled
-    scene.force = [f = *scene.uniform_force](double, double) { return f; };
+  else if (*constant != 0) { // for 0 no load is ever assembled
+    scene.uniform_force = constant;
+    scene.force = [f = *constant](double, double) { return f; };
+  }
   scene.road = flat_road(scene.outer_radius, parameters.road.distance);
   scene.road_slope = flat_road_slope(parameters.road.distance);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -16,9 +15,7 @@ namespace rollwave {
 using namespace dealii;
 
 std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Parameters& parameters) {
-  char* end = nullptr;
-  const double force = std::strtod(parameters.cylinder.radial_force.c_str(), &end);
-  if (*end != '\0')
+  if (scene.force && !scene.uniform_force)
     return {};
   const double left = 3 * numbers::PI / 2 - scene.zone_begin;
   const double right = scene.zone_end - 3 * numbers::PI / 2;
@@ -27,7 +24,7 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Param
     return {};
   const ExactSolution exact =
       solve_exactly({scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-                     parameters.road.distance, force, narrow});
+                     parameters.road.distance, scene.uniform_force.value_or(0), narrow});
   if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
     return {};
   return exact;

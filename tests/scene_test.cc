@@ -153,7 +153,6 @@ TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
   // Slanted, so that no two cells have the same indicator, with a force that hanging nodes see.
   const auto slanted = [](double turn) {
     Scene scene = make_scene(parameters_of({}));
-    scene.uniform_force.reset();
     scene.force = [turn](double r, double z) { return r * std::cos(z + turn + 0.4) / 10; };
     scene.road = [road = scene.road, turn](double z) {
       return road(z + turn) + 0.03 * std::sin(z + turn);
@@ -204,7 +203,6 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
       Parameters own = parameters;
       own.contact.method = method;
       Scene scene = make_scene(own);
-      scene.uniform_force.reset();
       scene.force = [](double r, double z) { return r * std::cos(z); };
       const Result original = simulate(scene, own).result;
       const auto road = scene.road, slope = scene.road_slope;
