@@ -2,13 +2,13 @@
 #define ROLLWAVE_CERTIFICATE_H
 
 #include "feasible_trace.h"
+#include "result.h"
 
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
-class Work;
 
 /**
  * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
@@ -39,11 +39,7 @@ class Work;
  * assumes that these resolve phi, and that ||f - f_h|| is seen by four times as many points.
  */
 struct Certificate {
-  double upper_bound;  ///< J(v) >= J(u)
-  double lower_bound;  ///< of J(u)
-  double norm_squared; ///< a(v, v)
-  double energy_norm;  ///< of a(v - u, v - u)^(1/2), an upper bound
-  double relative;     ///< of the same over a(u, u)^(1/2), an upper bound; infinite if not known
+  CertifiedError error;            ///< the bounds
   std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
   FeasibleTrace trace;             ///< v on the surface
 };

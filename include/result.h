@@ -24,7 +24,7 @@ struct Energy {
   double norm_squared; ///< a(u_h, u_h)
 };
 
-/// What the certificate guarantees, see Certificate.
+/// What a Certificate guarantees.
 struct CertifiedError {
   double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
   double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
@@ -37,7 +37,6 @@ struct CertifiedError {
 struct LoadBounds {
   double lower;
   double upper;
-  double step; ///< by which the road was moved, a length
 };
 
 /// One mesh of an adaptive run.
@@ -57,7 +56,7 @@ struct Residuals {
   double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
 };
 
-/// Errors against the exact solution.
+/// Errors against a Reference.
 struct TrueErrors {
   double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
   double relative_energy_norm; ///< over that of u
@@ -87,6 +86,10 @@ struct ContactRow {
   double pressure;
 };
 
+/// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing
+/// angle, zero beyond them.
+double pressure_at(const std::vector<ContactRow>& rows, double z);
+
 /// A point of the deformed surface r = b.
 struct SurfacePoint {
   double angle;
@@ -101,7 +104,7 @@ struct Result {
   Residuals residuals;
   std::optional<CertifiedError> certified;
   std::optional<LoadBounds> load_bounds;
-  std::optional<TrueErrors> errors; ///< where a comparison with the exact solution was asked for
+  std::optional<TrueErrors> errors; ///< where a comparison was asked for
   std::vector<CycleFigures> cycles; ///< one for each mesh
   std::vector<ContactStep> history; ///< on the last mesh
   double rho;                       ///< Uzawa's step length; 0 for the active set method

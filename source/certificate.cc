@@ -287,11 +287,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     relative = energy_norm / smallest_norm;
   else if (energy_norm == 0)
     relative = 0;
-  return {energy + energy_error,
-          energy - energy_error - bound_squared / 2 - epsilon * energy_norm,
-          norm_squared,
-          energy_norm,
-          relative,
+  return {{energy_norm, relative, energy - energy_error - bound_squared / 2 - epsilon * energy_norm,
+           energy + energy_error, norm_squared},
           std::move(cell_bounds),
           trace};
 }

@@ -34,8 +34,8 @@ LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const Ri
     return certify(space, moved, there.problem, there.contact, there.displacement, result.work);
   };
   const Certificate near = certify_at(c - step), far = certify_at(c + step);
-  return {std::max(0., (here.lower_bound - far.upper_bound) / step),
-          (near.upper_bound - here.lower_bound) / step, step};
+  return {std::max(0., (here.lower_bound - far.error.upper_bound) / step),
+          (near.error.upper_bound - here.lower_bound) / step};
 }
 
 } // namespace rollwave

@@ -1,118 +1,17 @@
 #include "parameters.h"
 
-#include "errors.h"
-
-#include <deal.II/base/parameter_handler.h>
+#include "declarations.h"
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <ostream>
-#include <sstream>
 
 namespace rollwave {
 
 using namespace dealii;
 
 namespace {
-
-/// @p text as a finite number, in the C locale; subnormal numbers are refused as well.
-/// @throws std::invalid_argument when it is none.
-double to_number(const std::string& text) {
-  std::size_t length = 0;
-  double value = 0;
-  try {
-    value = std::stod(text, &length);
-  } catch (const std::out_of_range&) {
-    throw std::invalid_argument(text);
-  }
-  if (length == 0 || length != text.size() || !std::isfinite(value))
-    throw std::invalid_argument(text);
-  return value;
-}
-
-/// @p text as a whole number from @p least to @p most. @throws std::invalid_argument otherwise.
-unsigned int to_count(const std::string& text, unsigned int least, unsigned int most) {
-  const double number = to_number(text);
-  if (number != std::floor(number) || number < least || number > most)
-    throw std::invalid_argument(text);
-  return static_cast<unsigned int>(number);
-}
-
-/// Declares the keys of one ParameterHandler and remembers their texts for messages.
-class Declarations {
-public:
-  explicit Declarations(ParameterHandler& prm) : prm(prm) {}
-
-  void enter(const std::string& name) {
-    section = name;
-    prm.enter_subsection(name);
-  }
-
-  void leave() { prm.leave_subsection(); }
-
-  /// A key whose text is turned into a value by @p parse, which throws on a text not admitted.
-  void add(const std::string& key, const std::string& default_text,
-           const std::function<void(const std::string&)>& parse, const std::string& text) {
-    prm.declare_entry(key, default_text, Patterns::Anything(), text);
-    prm.add_action(key, parse);
-    texts[section].emplace_back(key, text);
-  }
-
-  void add_number(const std::string& key, double& number, double least, double most,
-                  const std::string& text) {
-    std::ostringstream default_text;
-    default_text << number;
-    add(
-        key, default_text.str(),
-        [&number, least, most](const std::string& text) {
-          number = to_number(text);
-          if (number < least || number > most)
-            throw std::invalid_argument(text);
-        },
-        text);
-  }
-
-  void add_count(const std::string& key, unsigned int& count, unsigned int least, unsigned int most,
-                 const std::string& text) {
-    add(
-        key, std::to_string(count),
-        [&count, least, most](const std::string& text) { count = to_count(text, least, most); },
-        text);
-  }
-
-  template <typename Choice>
-  void add_choice(const std::string& key, Choice& choice,
-                  const std::map<std::string, Choice>& choices, const std::string& text) {
-    std::string default_name;
-    for (const auto& [name, value] : choices)
-      if (value == choice)
-        default_name = name;
-    add(
-        key, default_name,
-        [&choice, choices](const std::string& name) { choice = choices.at(name); }, text);
-  }
-
-  void add_text(const std::string& key, std::string& value, const std::string& text) {
-    add(
-        key, value,
-        [&value](const std::string& text) {
-          if (text.empty())
-            throw std::invalid_argument(text);
-          value = text;
-        },
-        text);
-  }
-
-  /// Keys and their texts, by section.
-  std::map<std::string, std::vector<std::pair<std::string, std::string>>> texts;
-
-private:
-  ParameterHandler& prm;
-  std::string section;
-};
 
 std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
   if (text == "auto")
@@ -310,71 +209,6 @@ void declare(Declarations& keys, Parameters& p) {
   keys.leave();
 }
 
-/// Levenshtein's distance without regard to case: insertions, deletions and replacements.
-unsigned int edit_distance(const std::string& from, const std::string& to) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  std::vector<unsigned int> row(to.size() + 1);
-  for (unsigned int j = 0; j < row.size(); ++j)
-    row[j] = j;
-  for (unsigned int i = 1; i <= from.size(); ++i) {
-    unsigned int diagonal = row[0];
-    row[0] = i;
-    for (unsigned int j = 1; j < row.size(); ++j) {
-      const unsigned int replaced = diagonal + (lower(from[i - 1]) == lower(to[j - 1]) ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// "ORIGIN: section "S", key "K"", the beginning of every message about a setting.
-std::string place(const Setting& setting) {
-  return setting.origin + ": section \"" + setting.section + "\", key \"" + setting.key + "\"";
-}
-
-/// The message for a setting without a declared key: the nearest keys, then all of its section.
-std::string unknown_key(const Setting& setting, const Declarations& keys) {
-  std::multimap<unsigned int, std::string> nearest;
-  for (const auto& [section, entries] : keys.texts)
-    for (const auto& [key, text] : entries)
-      nearest.emplace(edit_distance(setting.key, key) + edit_distance(setting.section, section),
-                      section + "/" + key);
-  std::string message = place(setting) + ": there is no such key; the nearest known: ";
-  auto candidate = nearest.begin();
-  for (unsigned int i = 0; i < 3; ++i, ++candidate)
-    message += (i > 0 ? ", " : "") + candidate->second;
-  const auto own = keys.texts.find(setting.section);
-  if (own != keys.texts.end()) {
-    message += "; all keys of this section: ";
-    for (const auto& entry : own->second)
-      message += (&entry != &own->second.front() ? ", " : "") + entry.first;
-  }
-  return message;
-}
-
-/// Hands @p settings to the declared keys, the later the stronger. @throws BadInput.
-void apply(ParameterHandler& prm, const Declarations& keys, const std::vector<Setting>& settings) {
-  for (const Setting& setting : settings) {
-    const auto section = keys.texts.find(setting.section);
-    if (section == keys.texts.end())
-      throw BadInput(unknown_key(setting, keys));
-    const auto entry =
-        std::find_if(section->second.begin(), section->second.end(),
-                     [&setting](const auto& candidate) { return candidate.first == setting.key; });
-    if (entry == section->second.end())
-      throw BadInput(unknown_key(setting, keys));
-    prm.enter_subsection(setting.section);
-    try {
-      prm.set(setting.key, setting.value);
-    } catch (const std::exception&) {
-      throw BadInput(place(setting) + ", value \"" + setting.value +
-                     "\" is not admitted. The key: " + entry->second);
-    }
-    prm.leave_subsection();
-  }
-}
-
 } // namespace
 
 bool Parameters::wants(OutputFile file) const {
@@ -386,7 +220,7 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   ParameterHandler prm;
   Declarations keys(prm);
   declare(keys, parameters);
-  apply(prm, keys, settings);
+  keys.apply(settings);
   parameters.settings = settings;
   return parameters;
 }
@@ -406,7 +240,7 @@ void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
   ParameterHandler prm;
   Declarations keys(prm);
   declare(keys, parameters);
-  apply(prm, keys, settings);
+  keys.apply(settings);
   prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 

@@ -142,12 +142,11 @@ Reference discrete_reference(const Scene& scene, const RingSpace& space, const R
   struct Node {
     double angle;
     double force;
-    double pressure;
   };
   std::vector<Node> nodes;
   for (unsigned int i = 0; i < result.contact_rows.size(); ++i) {
     const ContactRow& row = result.contact_rows[i];
-    nodes.push_back({row.angle, row.pressure * space.contact_nodes()[i].weight, row.pressure});
+    nodes.push_back({row.angle, row.pressure * space.contact_nodes()[i].weight});
   }
   // Where the zone cuts the contact short, the pressure is infinite.
   const auto [left, right] = result.patch.ends.value_or(std::pair(0., 0.));
@@ -177,19 +176,12 @@ Reference discrete_reference(const Scene& scene, const RingSpace& space, const R
     }
     return sum;
   };
-  reference.pressure = [=, left = left, right_end = right](double z) -> std::optional<double> {
+  reference.pressure = [=, rows = result.contact_rows, left = left,
+                        right = right](double z) -> std::optional<double> {
     if ((is_cut_left && std::abs(z - left) < 1e-12) ||
-        (is_cut_right && std::abs(z - right_end) < 1e-12))
+        (is_cut_right && std::abs(z - right) < 1e-12))
       return {};
-    const auto next = std::lower_bound(nodes.begin(), nodes.end(), z,
-                                       [](const Node& node, double at) { return node.angle < at; });
-    if (next == nodes.end() || (next == nodes.begin() && next->angle > z))
-      return 0;
-    if (next->angle == z)
-      return next->pressure;
-    const Node& before = *(next - 1);
-    const double t = (z - before.angle) / (next->angle - before.angle);
-    return (1 - t) * before.pressure + t * next->pressure;
+    return pressure_at(rows, z);
   };
   reference.expected_order = [is_cut = is_cut_left || is_cut_right](unsigned int degree) {
     return order_on_uniform_meshes(is_cut, degree);

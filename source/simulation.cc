@@ -20,43 +20,24 @@ using namespace dealii;
 
 namespace {
 
-/// The pressure of the mesh before at the nodes of another: linear between its nodes, zero outside
-/// of the contact. Without entries when there was no mesh before.
+/// The pressure of the mesh before at the nodes of another, zero outside of the contact. Without
+/// entries when there was no mesh before.
 Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNode>& nodes) {
-  const auto& rows = before.contact_rows;
-  if (rows.empty())
+  if (before.contact_rows.empty())
     return {};
   Vector<double> pressure(nodes.size());
-  if (!before.patch.ends)
-    return pressure;
-  for (unsigned int i = 0; i < nodes.size(); ++i) {
-    const double z = nodes[i].angle;
-    if (z < before.patch.ends->first || z > before.patch.ends->second)
-      continue;
-    const auto right =
-        std::lower_bound(rows.begin(), rows.end(), z,
-                         [](const ContactRow& row, double at) { return row.angle < at; });
-    if (right == rows.end())
-      pressure(i) = rows.back().pressure;
-    else if (right == rows.begin() || right->angle == z)
-      pressure(i) = right->pressure;
-    else {
-      const auto left = right - 1;
-      const double t = (z - left->angle) / (right->angle - left->angle);
-      pressure(i) = (1 - t) * left->pressure + t * right->pressure;
-    }
-  }
+  const auto& ends = before.patch.ends;
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (const double z = nodes[i].angle; ends && ends->first <= z && z <= ends->second)
+      pressure(i) = pressure_at(before.contact_rows, z);
   return pressure;
 }
 
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
   solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
                                  on_mesh.displacement, solution.result.work);
-  const Certificate& certificate = *solution.certificate;
-  solution.result.certified = {certificate.energy_norm, certificate.relative,
-                               certificate.lower_bound, certificate.upper_bound,
-                               certificate.norm_squared};
-  solution.result.cycles.back().certified = certificate.relative;
+  solution.result.certified = solution.certificate->error;
+  solution.result.cycles.back().certified = solution.certificate->error.relative;
 }
 
 /// eta_K of each active cell.

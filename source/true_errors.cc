@@ -78,12 +78,13 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   errors.expected_order =
       is_uniform ? reference.expected_order(result.mesh.degree) : result.mesh.degree;
   if (certificate) {
-    const double energy = certificate->upper_bound;
+    const CertifiedError& certified = certificate->error;
+    const double energy = certified.upper_bound;
     errors.feasible_energy_norm =
-        energy_distance(reference, trace_of(space, certificate->trace), certificate->norm_squared,
-                        certificate->norm_squared / 2 - energy);
+        energy_distance(reference, trace_of(space, certificate->trace), certified.norm_squared,
+                        certified.norm_squared / 2 - energy);
     errors.effectivity =
-        std::sqrt(std::max(0., energy - certificate->lower_bound) / (energy - reference.energy));
+        std::sqrt(std::max(0., energy - certified.lower_bound) / (energy - reference.energy));
   }
   return errors;
 }
