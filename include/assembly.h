@@ -22,7 +22,8 @@ using AddCellMatrix = std::function<void(const std::vector<dealii::types::global
  *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,   alpha = 1/r^2 -
  * omega^2
  *
- * by Gauss' rule with degree + 1 points in each direction. Constraints are not applied.
+ * by Gauss' rule with degree + 1 points in each direction, the radial index of the degrees of
+ * freedom running fastest. Constraints are not applied.
  */
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add);
 

@@ -1,11 +1,10 @@
 #ifndef ROLLWAVE_DIRECT_SOLVER_H
 #define ROLLWAVE_DIRECT_SOLVER_H
 
+#include "schur_complement.h"
 #include "sparse_cholesky.h"
 #include "stiffness_solver.h"
 #include "work.h"
-
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <optional>
 
@@ -20,7 +19,8 @@ struct Scene;
  *     S u_c = g - N_c,   S = L_cc L_cc^T,   g = f_c - K_ci K_ii^-1 f_i = L_cc (L^-1 f)_c,
  *
  * so that pinning any of them never touches the large matrix again, and one back-substitution
- * L_ii^T u_i = (L^-1 f)_i - L_ci^T u_c gives the field.
+ * L_ii^T u_i = (L^-1 f)_i - L_ci^T u_c gives the field. The contact nodes that are the likeliest to
+ * be pinned, where the road is nearest, are the very last, as SchurComplement likes them.
  */
 class DirectSolver : public StiffnessSolver {
 public:
@@ -35,7 +35,8 @@ public:
   FieldVector apply(const FieldVector& field) const override;
 
 private:
-  void factorise_free_block(const std::vector<bool>& pinned);
+  dealii::Vector<double> to_places(const dealii::Vector<double>& contact_values) const;
+  dealii::Vector<double> from_places(const dealii::Vector<double>& values) const;
   std::vector<double> gather(const FieldVector& field) const;
   FieldVector scatter(const std::vector<double>& unknowns) const;
 
@@ -45,19 +46,11 @@ private:
   /// The number of each degree of freedom among the unknowns, contact nodes last; -1 if
   /// constrained.
   std::vector<int> unknown_of_dof;
+  std::vector<unsigned int> places; ///< of the contact nodes among the last unknowns
   std::unique_ptr<SparseCholesky> cholesky;
+  std::unique_ptr<SchurComplement> schur;
   std::vector<double> reduced_load;    ///< L^-1 P f; empty for f = 0
-  dealii::FullMatrix<double> schur;    ///< S
-  dealii::FullMatrix<double> trailing; ///< L_cc
-  dealii::Vector<double> contact_load; ///< g
-
-  /// The factorisation of S on the nodes that are not pinned, kept while these are the same.
-  struct FreeBlock {
-    std::vector<bool> pinned;
-    std::vector<unsigned int> nodes;
-    dealii::LAPACKFullMatrix<double> factor;
-  };
-  std::optional<FreeBlock> free_block;
+  dealii::Vector<double> contact_load; ///< g, by place
 };
 
 } // namespace rollwave

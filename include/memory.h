@@ -10,6 +10,10 @@ namespace rollwave {
 /// @throws NotSolved when less than @p bytes are available; @p purpose says what needs them.
 void require_memory(double bytes, const std::string& purpose);
 
+/// Returns to the system what this process has freed but still holds, where the C library can do
+/// so.
+void release_freed_memory();
+
 /// The largest amount of memory this process has held so far, in MiB.
 double peak_memory_mib();
 

@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_RADIAL_SHAPES_H
 #define ROLLWAVE_RADIAL_SHAPES_H
 
+#include "shape_products.h"
+
 #include <deal.II/base/polynomial.h>
 #include <deal.II/lac/full_matrix.h>
 
@@ -29,9 +31,8 @@ struct RadialShapes {
   dealii::FullMatrix<double> potential;   ///< of a potential
   dealii::FullMatrix<double> potential_s; ///< of a potential, d/ds
 
-  // Integrals of products of two shape functions of a potential
-  dealii::FullMatrix<double> depth_stiffness; ///< int d/ds d/ds ds, by the rule
-  dealii::FullMatrix<double> inverse_mass;    ///< int 1/r dr, by the rule
+  /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
+  ShapeProducts products;
 };
 
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
@@ -50,9 +51,6 @@ private:
   unsigned int n_points;
   std::map<std::pair<double, double>, RadialShapes> known;
 };
-
-/// Lagrange polynomials on [0, 1] with nodes at the Gauss-Lobatto points, as the elements have.
-std::vector<dealii::Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree);
 
 } // namespace rollwave
 

@@ -22,10 +22,11 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
  * cut gains no more than a factor of 2 in eta_K^2, are not behind the others.
  *
- * Neighbours differ by one level at most, over the seam and at corners as well.
+ * When more than @p most_cells active cells would come of it, only the marked cells with the largest
+ * indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam and at
+ * corners as well.
  *
- * @return false, the mesh being left as it is, when no cell is marked or the mesh would have more
- *         than @p most_cells active cells
+ * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const std::vector<double>& indicators,
                  Marking marking, double fraction, unsigned int degree, double most_cells);

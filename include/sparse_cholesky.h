@@ -23,7 +23,8 @@ struct LowerTriplets {
 
 /**
  * The factorisation P K P^T = L L^T of a sparse symmetric positive definite matrix K of n rows,
- * whose last m unknowns stay last and in their order:
+ * which eliminates groups of unknowns one after another and the last m unknowns last, in their
+ * order:
  *
  *         ( L_ii       )                        T
  *     L = (            ),     S = L_cc   L_cc
@@ -35,9 +36,10 @@ struct LowerTriplets {
  */
 class SparseCholesky {
 public:
-  /// Sums up the triplets and orders and analyses the matrix.
-  /// @throws NotSolved when memory is short.
-  SparseCholesky(int n, int m, const LowerTriplets& triplets);
+  /// Sums up the triplets and orders and analyses the matrix. The order of two unknowns is free
+  /// within a group, and else that of their @p groups: n numbers from 0 on, of which the last m
+  /// have no meaning. @throws NotSolved when memory is short.
+  SparseCholesky(const std::vector<int>& groups, int m, const LowerTriplets& triplets);
   ~SparseCholesky();
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.

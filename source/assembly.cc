@@ -2,44 +2,68 @@
 
 #include "errors.h"
 #include "scene.h"
+#include "shape_products.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace rollwave {
 
 using namespace dealii;
 
+namespace {
+
+/// int r d_r phi_i d_r phi_j dr and int r alpha phi_i phi_j dr over a radial interval.
+ShapeProducts radial_products(const Scene& scene,
+                              const std::vector<Polynomials::Polynomial<double>>& shapes,
+                              double begin, double end) {
+  const unsigned int n = shapes.size();
+  const QGauss<1> gauss(n);
+  const double height = end - begin;
+  ShapeProducts products = {FullMatrix<double>(n), FullMatrix<double>(n)};
+  std::vector<std::vector<double>> shape(n, std::vector<double>(2)); // value and derivative
+  for (unsigned int q = 0; q < gauss.size(); ++q) {
+    const double r = begin + height * gauss.point(q)[0];
+    const double radial = r * height * gauss.weight(q); // r dr
+    const double angular = scene.alpha(r) * radial;     // alpha r dr
+    for (unsigned int i = 0; i < n; ++i)
+      shapes[i].value(gauss.point(q)[0], shape[i]);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j) {
+        products.stiffness(i, j) += radial * (shape[i][1] / height) * (shape[j][1] / height);
+        products.mass(i, j) += angular * shape[i][0] * shape[j][0];
+      }
+  }
+  return products;
+}
+
+} // namespace
+
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
-  const auto& element = space.dof_handler().get_fe();
-  const QGauss<2> gauss(element.degree + 1);
-  FEValues<2> values(space.mapping(), element, gauss,
-                     update_gradients | update_quadrature_points | update_JxW_values);
-  FullMatrix<double> cell_matrix(element.n_dofs_per_cell(), element.n_dofs_per_cell());
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
+  const auto shapes = lobatto_lagrange(element.degree);
+  const ShapeProducts reference = reference_products(element.degree);
+  // A mesh has many cells, but few radial intervals.
+  std::map<std::pair<double, double>, ShapeProducts> known;
+  FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
+  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell()), ordered(dofs.size());
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    values.reinit(cell);
-    cell_matrix = 0;
-    for (const unsigned int q : values.quadrature_point_indices()) {
-      const double r = values.quadrature_point(q)[0];
-      const double radial = r * values.JxW(q);        // r dr dz
-      const double angular = scene.alpha(r) * radial; // alpha r dr dz
-      for (const unsigned int i : values.dof_indices()) {
-        const Tensor<1, 2> grad_i = values.shape_grad(i, q);
-        for (unsigned int j = 0; j <= i; ++j) {
-          const Tensor<1, 2> grad_j = values.shape_grad(j, q);
-          cell_matrix(i, j) += radial * grad_i[0] * grad_j[0] + angular * grad_i[1] * grad_j[1];
-        }
-      }
-    }
-    for (const unsigned int i : values.dof_indices())
-      for (unsigned int j = i + 1; j < values.dofs_per_cell; ++j)
-        cell_matrix(i, j) = cell_matrix(j, i);
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    const auto key = std::pair(low[0], high[0]);
+    auto radial = known.find(key);
+    if (radial == known.end())
+      radial = known.emplace(key, radial_products(scene, shapes, low[0], high[0])).first;
+    tensor_matrix(radial->second, reference, high[1] - low[1], cell_matrix);
     cell->get_dof_indices(dofs);
-    add(dofs, cell_matrix);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      ordered[i] = dofs[numbering[i]];
+    add(ordered, cell_matrix);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "direct_solver.h"
 
 #include "memory.h"
+#include "nested_dissection.h"
 #include "stiffness_triplets.h"
 
 #include <algorithm>
@@ -11,8 +12,10 @@ using namespace dealii;
 
 DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
                            const std::optional<FieldVector>& load, Work& work)
-    : space(space), work(work), unknown_of_dof(number_unknowns(space)) {
-  const unsigned int m = space.contact_nodes().size();
+    : space(space), work(work), unknown_of_dof(number_unknowns(space, scene)) {
+  const unsigned int m = space.contact_nodes().size(), n = space.n_unknowns();
+  for (const SurfaceNode& node : space.contact_nodes())
+    places.push_back(unknown_of_dof[node.dof] - (n - m));
   {
     LowerTriplets triplets;
     {
@@ -21,12 +24,16 @@ DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
       ++work.stiffness_assemblies;
     }
     const Work::Phase phase(work, "ordering");
-    cholesky = std::make_unique<SparseCholesky>(space.n_unknowns(), m, triplets);
+    std::vector<int> groups(n);
+    const std::vector<int> group_of_dof = dissect(space);
+    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+      if (unknown_of_dof[dof] >= 0)
+        groups[unknown_of_dof[dof]] = group_of_dof[dof];
+    cholesky = std::make_unique<SparseCholesky>(groups, m, triplets);
   }
   {
     const Work::Phase phase(work, "factorisation");
-    // L; then S, its factor L_cc and the factor of its block of free nodes
-    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 3. * m * m),
+    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
                    "the factor of the stiffness matrix with " + std::to_string(m) +
                        " contact nodes");
     cholesky->factorise();
@@ -34,79 +41,51 @@ DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
   }
 
   const Work::Phase phase(work, "contact");
-  trailing = cholesky->trailing_factor();
-  schur.reinit(m, m);
-  trailing.mTmult(schur, trailing);
+  schur = std::make_unique<SchurComplement>(cholesky->trailing_factor());
   contact_load.reinit(m);
   if (load) {
     reduced_load = cholesky->forward(gather(*load));
     ++work.forward_substitutions;
-    const Vector<double> reduced(reduced_load.end() - m, reduced_load.end());
-    trailing.vmult(contact_load, reduced);
+    contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
 }
 
-void DirectSolver::factorise_free_block(const std::vector<bool>& pinned) {
-  if (free_block && free_block->pinned == pinned)
-    return;
-  free_block.emplace();
-  free_block->pinned = pinned;
-  auto& nodes = free_block->nodes;
-  for (unsigned int i = 0; i < pinned.size(); ++i)
-    if (!pinned[i])
-      nodes.push_back(i);
-  if (nodes.empty())
-    return;
-  free_block->factor.reinit(nodes.size());
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    for (unsigned int j = 0; j < nodes.size(); ++j)
-      free_block->factor(i, j) = schur(nodes[i], nodes[j]);
-  free_block->factor.set_property(LAPACKSupport::symmetric);
-  free_block->factor.compute_cholesky_factorization();
-  ++work.dense_factorisations;
+Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
+  Vector<double> values(places.size());
+  for (unsigned int i = 0; i < places.size(); ++i)
+    values(places[i]) = contact_values(i);
+  return values;
+}
+
+Vector<double> DirectSolver::from_places(const Vector<double>& values) const {
+  Vector<double> contact_values(places.size());
+  for (unsigned int i = 0; i < places.size(); ++i)
+    contact_values(i) = values(places[i]);
+  return contact_values;
 }
 
 Vector<double> DirectSolver::response(const Vector<double>& force) {
-  factorise_free_block(std::vector<bool>(force.size(), false));
-  Vector<double> displacement = force;
-  free_block->factor.solve(displacement);
-  return displacement;
+  return from_places(schur->solve(to_places(force)));
 }
 
 void DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state) {
-  const unsigned int m = contact_load.size();
-  AssertDimension(pinned.size(), m);
-  factorise_free_block(pinned);
-
-  const auto& nodes = free_block->nodes;
-  if (!nodes.empty()) {
-    Vector<double> pinned_part(m), reaction(m), rhs(nodes.size());
-    for (unsigned int i = 0; i < m; ++i)
-      pinned_part(i) = pinned[i] ? state.displacement(i) : 0.;
-    schur.vmult(reaction, pinned_part);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      rhs(i) = contact_load(nodes[i]) - state.force(nodes[i]) - reaction(nodes[i]);
-    free_block->factor.solve(rhs);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      state.displacement(nodes[i]) = rhs(i);
-  }
-
-  Vector<double> internal_force(m);
-  schur.vmult(internal_force, state.displacement);
-  for (unsigned int i = 0; i < m; ++i)
-    if (pinned[i])
-      state.force(i) = contact_load(i) - internal_force(i);
+  std::vector<bool> is_pinned(places.size());
+  for (unsigned int i = 0; i < places.size(); ++i)
+    is_pinned[places[i]] = pinned[i];
+  Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
+  if (schur->solve(is_pinned, contact_load, displacement, force) > 0)
+    ++work.dense_factorisations;
+  state.displacement = from_places(displacement);
+  state.force = from_places(force);
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(work, "back-substitution");
-  const unsigned int m = contact_load.size();
   std::vector<double> rhs =
       reduced_load.empty() ? std::vector<double>(space.n_unknowns(), 0.) : reduced_load;
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
-  Vector<double> trailing_rhs(m);
-  trailing.Tvmult(trailing_rhs, state.displacement);
-  std::copy(trailing_rhs.begin(), trailing_rhs.end(), rhs.end() - m);
+  const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
+  std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work.back_substitutions;
   return scatter(cholesky->backward(rhs));
 }

@@ -2,8 +2,10 @@
 
 #include "edge_constraints.h"
 #include "memory.h"
+#include "nested_dissection.h"
 #include "potential_shapes.h"
 #include "scene.h"
+#include "shape_products.h"
 #include "stiffness_triplets.h"
 #include "work.h"
 
@@ -71,26 +73,6 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
   return constraints;
 }
 
-/// The integrals of products of shape functions over the reference interval [0, 1].
-struct ReferenceMatrices {
-  FullMatrix<double> mass;
-  FullMatrix<double> stiffness;
-
-  explicit ReferenceMatrices(unsigned int degree) : mass(degree + 1), stiffness(degree + 1) {
-    const QGauss<1> gauss(degree + 1);
-    const auto shapes = lobatto_lagrange(degree);
-    std::vector<double> first(2), second(2);
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-      for (unsigned int i = 0; i <= degree; ++i)
-        for (unsigned int j = 0; j <= degree; ++j) {
-          shapes[i].value(gauss.point(q)[0], first);
-          shapes[j].value(gauss.point(q)[0], second);
-          mass(i, j) += first[0] * second[0] * gauss.weight(q);
-          stiffness(i, j) += first[1] * second[1] * gauss.weight(q);
-        }
-  }
-};
-
 } // namespace
 
 FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
@@ -106,12 +88,15 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
   std::vector<int> unknown_of_dof(lift.size(), 0);
   for (const auto& line : constraints.get_lines())
     unknown_of_dof[line.index] = -1;
-  int n_unknowns = 0;
-  for (int& unknown : unknown_of_dof)
-    if (unknown == 0)
-      unknown = n_unknowns++;
+  const std::vector<int> group_of_dof = dissect(space);
+  std::vector<int> groups; // of the unknowns
+  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+    if (unknown_of_dof[dof] == 0) {
+      unknown_of_dof[dof] = groups.size();
+      groups.push_back(group_of_dof[dof]);
+    }
 
-  const ReferenceMatrices reference(element.degree);
+  const ShapeProducts reference = reference_products(element.degree);
   const QGauss<1> gauss(element.degree + 2);
   FullMatrix<double> angular_derivative(gauss.size(), n); // on [0, 1]
   const auto lagrange = lobatto_lagrange(element.degree);
@@ -132,11 +117,7 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
     const RadialShapes& radial = shapes.on(low[0], high[0]);
     // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
     const double length = high[1] - low[1];
-    for (unsigned int i = 0; i < dofs_per_cell; ++i)
-      for (unsigned int j = 0; j < dofs_per_cell; ++j)
-        cell_matrix(i, j) =
-            radial.depth_stiffness(i % n, j % n) * reference.mass(i / n, j / n) * length +
-            radial.inverse_mass(i % n, j % n) * reference.stiffness(i / n, j / n) / length;
+    tensor_matrix(radial.products, reference, length, cell_matrix);
 
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs_per_cell; ++i) {
@@ -166,12 +147,12 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
     constraints.distribute_local_to_global(cell_vector, ordered, rhs);
   }
 
-  SparseCholesky cholesky(n_unknowns, 0, assembler.triplets);
+  SparseCholesky cholesky(groups, 0, assembler.triplets);
   assembler.triplets = {};
   require_memory(sizeof(double) * cholesky.n_factor_entries(), "the factor of the dual problem");
   cholesky.factorise();
   ++work.factorisations;
-  std::vector<double> unknowns(n_unknowns);
+  std::vector<double> unknowns(groups.size());
   for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
     if (unknown_of_dof[dof] >= 0)
       unknowns[unknown_of_dof[dof]] = rhs(dof);

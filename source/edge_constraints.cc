@@ -1,7 +1,7 @@
 #include "edge_constraints.h"
 
-#include "radial_shapes.h"
 #include "ring_mesh.h"
+#include "shape_products.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>

@@ -1,7 +1,7 @@
 #include "feasible_trace.h"
 
-#include "radial_shapes.h"
 #include "scene.h"
+#include "shape_products.h"
 
 #include <boost/math/tools/roots.hpp>
 #include <deal.II/base/quadrature_lib.h>

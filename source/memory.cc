@@ -4,6 +4,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <malloc.h>
+
 #include <fstream>
 #include <sstream>
 
@@ -24,6 +26,10 @@ void require_memory(double bytes, const std::string& purpose) {
                  "refinements, or narrow Road/Contact zone";
       throw NotSolved(message.str());
     }
+}
+
+void release_freed_memory() {
+  malloc_trim(0);
 }
 
 double peak_memory_mib() {

@@ -129,7 +129,7 @@ void declare(Declarations& keys, Parameters& p) {
                   "The fraction that Marking speaks of, from 0.01 to 1.");
   keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
                  "A mesh with more unknowns than this number is refused; adaptive refinement ends "
-                 "before it.");
+                 "where it would be exceeded.");
   keys.leave();
 
   keys.enter("Certificate");

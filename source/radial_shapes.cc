@@ -12,10 +12,6 @@ namespace rollwave {
 
 using namespace dealii;
 
-std::vector<Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree) {
-  return Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
-}
-
 RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree,
                                        unsigned int n_points)
     : scene(scene), lagrange(lobatto_lagrange(degree)), n_points(n_points) {}
@@ -62,15 +58,14 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
       shapes.potential_s(q, i) = derivatives[i];
     }
   }
-  shapes.depth_stiffness.reinit(n, n);
-  shapes.inverse_mass.reinit(n, n);
+  shapes.products = {FullMatrix<double>(n), FullMatrix<double>(n)};
   for (unsigned int q = 0; q < n_q; ++q)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j) {
         const double r = shapes.r[q], weight = shapes.weight[q];
-        shapes.depth_stiffness(i, j) += shapes.potential_s(q, i) * shapes.potential_s(q, j) *
-                                        weight * r * shapes.alpha[q]; // ds = r alpha dr
-        shapes.inverse_mass(i, j) += shapes.potential(q, i) * shapes.potential(q, j) * weight / r;
+        shapes.products.stiffness(i, j) += shapes.potential_s(q, i) * shapes.potential_s(q, j) *
+                                           weight * r * shapes.alpha[q]; // ds = r alpha dr
+        shapes.products.mass(i, j) += shapes.potential(q, i) * shapes.potential(q, j) * weight / r;
       }
   return shapes;
 }

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <vector>
 
 namespace rollwave {
 
@@ -29,6 +31,44 @@ unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
   for (const auto& cell : triangulation.active_cell_iterators())
     flagged += cell->refine_flag_set() ? 1 : 0; // a refinement case, not a bool
   return triangulation.n_active_cells() + 3 * flagged;
+}
+
+/// Flags the cells from the value @p last_marked on. Mirror images have the same indicator but for
+/// round-off, which shall not choose between them.
+void flag(Triangulation<2>& triangulation, const Vector<double>& squares, double last_marked) {
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked)
+      cell->set_refine_flag();
+}
+
+void clear_flags(Triangulation<2>& triangulation) {
+  for (const auto& cell : triangulation.active_cell_iterators())
+    cell->clear_refine_flag();
+}
+
+/// Flags the cells with the largest values among those from @p last_marked on, so many that the
+/// mesh will have @p most_cells cells at most, or none when they would be too few to matter.
+/// Returns the value of the last.
+double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>& squares,
+                           double last_marked, double most_cells) {
+  std::vector<double> marked;
+  for (const double square : squares)
+    if (square >= last_marked)
+      marked.push_back(square);
+  std::sort(marked.begin(), marked.end(), std::greater<>());
+  const double n_now = triangulation.n_active_cells();
+  for (double n_marked = marked.size();;) {
+    // Neighbours that must be cut too come on top of the marked cells.
+    n_marked *= 0.98 * (most_cells - n_now) / (n_cells_to_come(triangulation) - n_now);
+    clear_flags(triangulation);
+    if (n_marked < 1 || n_marked < 0.003 * n_now)
+      return last_marked;
+    last_marked = marked[static_cast<std::size_t>(n_marked) - 1];
+    flag(triangulation, squares, last_marked);
+    triangulation.prepare_coarsening_and_refinement();
+    if (n_cells_to_come(triangulation) <= most_cells)
+      return last_marked;
+  }
 }
 
 /// Cuts flagged cells; each part inherits its cell's square times @p left_to_part.
@@ -67,10 +107,15 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->refine_flag_set())
       last_marked = std::min(last_marked, squares(cell->active_cell_index()));
-
+  if (marking != Marking::all && last_marked > 0)
+    flag(triangulation, squares, last_marked);
   triangulation.prepare_coarsening_and_refinement();
-  const unsigned int n_cells = n_cells_to_come(triangulation);
-  if (n_cells == triangulation.n_active_cells() || n_cells > most_cells)
+  if (n_cells_to_come(triangulation) > most_cells) {
+    if (marking == Marking::all)
+      return false;
+    last_marked = flag_as_many_as_fit(triangulation, squares, last_marked, most_cells);
+  }
+  if (n_cells_to_come(triangulation) == triangulation.n_active_cells())
     return false;
   const double left_to_part = std::pow(4., -(degree + 1.));
   execute(triangulation, squares, left_to_part);

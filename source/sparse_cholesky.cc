@@ -1,6 +1,7 @@
 #include "sparse_cholesky.h"
 
 #include "errors.h"
+#include "memory.h"
 
 #include <cholmod.h>
 #include <omp.h>
@@ -72,8 +73,8 @@ struct SparseCholesky::Cholmod {
   }
 };
 
-SparseCholesky::SparseCholesky(int n, int m, const LowerTriplets& triplets)
-    : cholmod(std::make_unique<Cholmod>()), n(n), m(m) {
+SparseCholesky::SparseCholesky(const std::vector<int>& groups, int m, const LowerTriplets& triplets)
+    : cholmod(std::make_unique<Cholmod>()), n(groups.size()), m(m) {
   cholmod_common& common = cholmod->common;
 
   cholmod_triplet view = {};
@@ -89,8 +90,9 @@ SparseCholesky::SparseCholesky(int n, int m, const LowerTriplets& triplets)
   cholmod->matrix = cholmod_triplet_to_sparse(&view, 0, &common);
   cholmod->check("assembly");
 
-  std::vector<int> order(n), member(n, 0);
-  std::fill(member.end() - m, member.end(), 1);
+  std::vector<int> order(n), member = groups;
+  const int last_group = n > m ? 1 + *std::max_element(groups.begin(), groups.end() - m) : 0;
+  std::fill(member.end() - m, member.end(), last_group);
   cholmod_camd(cholmod->matrix, nullptr, 0, member.data(), order.data(), &common);
   cholmod->check("ordering");
   std::iota(order.end() - m, order.end(), n - m);
@@ -118,6 +120,8 @@ private:
 } // namespace
 
 void SparseCholesky::factorise() {
+  // Mesh and assembly leave much free memory behind, in pieces that a large factor does not fit.
+  release_freed_memory();
   const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod->check("factorisation");

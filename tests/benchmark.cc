@@ -80,7 +80,8 @@ void benchmark(const PaperScene& paper, int degree, int radial_cells, int angula
   const Scene scene = make_scene(parameters);
   const Discretisation ring(scene, parameters);
   const int n = ring.space.n_unknowns();
-  const LowerTriplets triplets = assemble_triplets(ring.space, scene, number_unknowns(ring.space));
+  const LowerTriplets triplets =
+      assemble_triplets(ring.space, scene, number_unknowns(ring.space, scene));
 
   std::vector<double> plain, contact, ratio;
   std::size_t steps = 0;

@@ -209,8 +209,11 @@ TEST(Certificate, OfFullContactEnclosesTheExactEnergy) {
                        "Mesh/Angular cells=24", "Mesh/Adaptive cycles=3"});
     const Solution solution = simulate(full_circle(0.5, 1, 0.5, phi), parameters);
     const CertifiedError& certified = *solution.result.certified;
-    EXPECT_LE(certified.lower_bound, energy);
-    EXPECT_GE(certified.upper_bound, energy);
+    // Where the mesh is the same at every angle the flux is exact, and so is the lower bound but
+    // for the rounding of sums over all cells.
+    const double round_off = 1e-12 * energy;
+    EXPECT_LE(certified.lower_bound, energy + round_off);
+    EXPECT_GE(certified.upper_bound, energy - round_off);
     EXPECT_LT(certified.relative, degree == 1 ? 0.05 : 0.005);
   }
 }

@@ -43,7 +43,7 @@ struct RandomMatrix {
 TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
   const int n = 60, m = 13;
   const RandomMatrix matrix(n);
-  SparseCholesky cholesky(n, m, matrix.triplets);
+  SparseCholesky cholesky(std::vector<int>(n, 0), m, matrix.triplets);
   cholesky.factorise();
   const FullMatrix<double> factor = cholesky.trailing_factor();
   FullMatrix<double> schur(m, m);
@@ -65,7 +65,7 @@ TEST(SparseCholesky, SolvesAndMultiplies) {
   const int n = 60;
   const RandomMatrix matrix(n);
   for (const int m : {0, 1, 20, n}) {
-    SparseCholesky cholesky(n, m, matrix.triplets);
+    SparseCholesky cholesky(std::vector<int>(n, 0), m, matrix.triplets);
     cholesky.factorise();
     std::vector<double> x(n);
     for (int i = 0; i < n; ++i)
@@ -81,7 +81,7 @@ TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
   triplets.add(0, 0, 1);
   triplets.add(1, 0, 2);
   triplets.add(1, 1, 1);
-  SparseCholesky cholesky(2, 1, triplets);
+  SparseCholesky cholesky({0, 0}, 1, triplets);
   EXPECT_THROW(cholesky.factorise(), NotSolved);
 }
 
