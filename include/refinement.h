@@ -22,9 +22,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
  * cut gains no more than a factor of 2 in eta_K^2, are not behind the others.
  *
- * When more than @p most_cells active cells would come of it, only the marked cells with the largest
- * indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam and at
- * corners as well.
+ * When more than @p most_cells active cells would come of it, only the marked cells with the
+ * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
+ * and at corners as well.
  *
  * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter
  */

@@ -62,9 +62,12 @@ public:
 
 private:
   struct Cholmod;
+  std::vector<double> to_order(const std::vector<double>& x) const;
+  std::vector<double> from_order(const std::vector<double>& x) const;
+
   std::unique_ptr<Cholmod> cholmod;
-  int n;
   int m;
+  std::vector<int> order; ///< which unknown is eliminated as the k-th
 };
 
 } // namespace rollwave

@@ -15,7 +15,7 @@ using namespace dealii;
 namespace {
 
 /// Numbers of nodes along a side of a box that is left to the minimum degree ordering.
-constexpr double nodes_in_last_box = 12;
+constexpr double nodes_in_last_box = 10;
 
 /// How often a box is halved at most: cells cannot be smaller.
 constexpr int most_halvings = 2 * 64;
