@@ -21,6 +21,10 @@ struct ContactProblem {
   unsigned int size() const { return road.size(); }
 };
 
+/// What contact methods ask of StiffnessSolver::solve(): little while the contact still changes,
+/// and what the solution they return shall hold to.
+constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
+
 /// The contact conditions at the contact nodes of @p space.
 ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene);
 

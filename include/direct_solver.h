@@ -29,8 +29,8 @@ public:
   DirectSolver(const RingSpace& space, const Scene& scene, const std::optional<FieldVector>& load,
                Work& work);
 
-  void solve(const std::vector<bool>& pinned, ContactState& state) override;
-  dealii::Vector<double> response(const dealii::Vector<double>& force) override;
+  double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
+  dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 

@@ -2,6 +2,7 @@
 #define ROLLWAVE_ERRORS_H
 
 #include <stdexcept>
+#include <string>
 
 namespace rollwave {
 
@@ -14,6 +15,17 @@ struct BadInput : std::runtime_error {
 /// what was wanted and which parameter to change.
 struct NotSolved : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// What NotSolved says, where a method needs more memory than there is.
+struct NotEnoughMemory : NotSolved {
+  /// @p reason says what needs how much; the advice is added.
+  explicit NotEnoughMemory(const std::string& reason)
+      : NotSolved(reason + "; lower Mesh/Radial cells, Mesh/Angular cells or Mesh/Global "
+                           "refinements, or narrow Road/Contact zone"),
+        reason(reason) {}
+
+  std::string reason;
 };
 
 /// A result could not be written; exit code 3. No file is left half-written.

@@ -7,7 +7,7 @@ namespace rollwave {
 
 /// Refuses work that would drive the machine out of memory, where the system might end any process
 /// instead of failing an allocation. Does nothing where the free memory is not known.
-/// @throws NotSolved when less than @p bytes are available; @p purpose says what needs them.
+/// @throws NotEnoughMemory when less than @p bytes are available; @p purpose says what needs them.
 void require_memory(double bytes, const std::string& purpose);
 
 /// Returns to the system what this process has freed but still holds, where the C library can do

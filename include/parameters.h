@@ -29,7 +29,9 @@ enum class SolverKind {
   /// "auto": the kind that suits the mesh.
   automatic,
   /// "direct": one sparse Cholesky factorisation for each mesh.
-  direct
+  direct,
+  /// "iterative": conjugate gradients with algebraic multigrid.
+  iterative
 };
 
 enum class Indicator {

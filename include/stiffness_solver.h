@@ -32,11 +32,15 @@ public:
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.
-  virtual void solve(const std::vector<bool>& pinned, ContactState& state) = 0;
+  /// @param accuracy the relative residual |f - N - K u|_2 / max(|f|_2, |N|_2) that suffices
+  /// @return the relative residual reached; 0 where the solution is exact but for round-off
+  /// @throws NotSolved when the accuracy is out of reach.
+  virtual double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) = 0;
 
   /// The displacement C N of the contact nodes towards the hub when nodal forces N push on them and
   /// nothing else does: C is the compliance, the inverse of the Schur complement of these nodes.
-  virtual dealii::Vector<double> response(const dealii::Vector<double>& force) = 0;
+  /// @p accuracy is as for solve().
+  virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
 
   /// The field u of a state that solve() has left, constraints included.
   virtual FieldVector displacement_field(const ContactState& state) = 0;

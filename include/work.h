@@ -18,20 +18,24 @@ public:
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;
   unsigned int back_substitutions = 0;
-  unsigned int linear_iterations = 0; ///< of an iterative solver of linear systems
+  unsigned int preconditioners = 0;   ///< set up for an iterative solver of linear systems
+  unsigned int linear_iterations = 0; ///< of that solver
   unsigned long bytes_written = 0;
 
-  /// Adds the time until it is destroyed to a phase.
+  /// Adds the time until it is destroyed to a phase. The time of a phase within another counts for
+  /// the inner one only.
   class Phase {
   public:
-    Phase(Work& work, const std::string& name) : work(work), name(name) {}
-    ~Phase() { work.add_seconds(name, timer.wall_time()); }
+    Phase(Work& work, const std::string& name);
+    ~Phase();
     Phase(const Phase&) = delete;
     Phase& operator=(const Phase&) = delete;
 
   private:
     Work& work;
     const std::string name;
+    Phase* const outer;
+    double inner_seconds = 0;
     dealii::Timer timer;
   };
 
@@ -43,6 +47,7 @@ public:
 
 private:
   std::vector<std::pair<std::string, double>> phases;
+  Phase* innermost = nullptr; ///< the phase that is going on
 };
 
 } // namespace rollwave

@@ -17,6 +17,10 @@ namespace {
 /// arithmetic would make zero comes out as round-off of this size.
 constexpr double round_off = 1e-14;
 
+/// The same where the equations hold up to a residual. The displacement is as accurate as they are;
+/// the pressure, a residual over a weight, is less so where cells are small.
+constexpr double displacement_error = 1, pressure_error = 10; // over the residual
+
 unsigned int count_changes(const std::vector<bool>& active, const std::vector<bool>& next) {
   unsigned int count = 0;
   for (unsigned int i = 0; i < active.size(); ++i)
@@ -24,13 +28,15 @@ unsigned int count_changes(const std::vector<bool>& active, const std::vector<bo
   return count;
 }
 
-ContactStep judge(const ContactProblem& problem, const ContactSolution& solution,
+ContactStep judge(const ContactProblem& problem, const ContactSolution& solution, double residual,
                   std::vector<bool>& next) {
   const auto& [displacement, force] = solution.state;
   double highest_pressure = 0;
   for (unsigned int i = 0; i < problem.size(); ++i)
     highest_pressure = std::max(highest_pressure, std::abs(force(i)) / problem.weight(i));
-  const double scale = displacement.linfty_norm();
+  const double least_pressure = -std::max(round_off, pressure_error * residual) * highest_pressure;
+  const double most_penetration =
+      std::max(round_off, displacement_error * residual) * displacement.linfty_norm();
 
   ContactStep step = {};
   next = solution.active;
@@ -40,10 +46,10 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
     if (solution.active[i]) {
       ++step.active;
       step.lowest_pressure = std::min(step.lowest_pressure, pressure);
-      next[i] = pressure >= -round_off * highest_pressure;
+      next[i] = pressure >= least_pressure;
     } else {
       step.penetration = std::max(step.penetration, penetration);
-      next[i] = penetration > round_off * scale;
+      next[i] = penetration > most_penetration;
     }
   }
   step.changed = count_changes(solution.active, next);
@@ -69,17 +75,23 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
 
   enum class Change { leaping, by_sign, one_by_one } change = Change::leaping;
   std::set<std::vector<bool>> visited;
+  double accuracy = loose_accuracy;
   for (;;) {
     for (unsigned int i = 0; i < problem.size(); ++i)
       if (solution.active[i])
         solution.state.displacement(i) = problem.road(i);
       else
         solution.state.force(i) = 0;
-    solver.solve(solution.active, solution.state);
+    double residual = solver.solve(solution.active, solution.state, accuracy);
 
     std::vector<bool> next;
-    solution.history.push_back(judge(problem, solution, next));
+    solution.history.push_back(judge(problem, solution, residual, next));
     ContactStep& step = solution.history.back();
+    if (step.changed == 0 && residual > final_accuracy) {
+      accuracy = final_accuracy;
+      residual = solver.solve(solution.active, solution.state, accuracy);
+      step = judge(problem, solution, residual, next);
+    }
     if (step.changed == 0)
       return solution;
     if (solution.history.size() >= most_steps)
@@ -88,6 +100,13 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
                       " nodes still change; raise Contact/Most steps");
 
     if (change != Change::one_by_one && !visited.insert(solution.active).second) {
+      if (residual > final_accuracy) {
+        // The signs of a loose solve have led here; those of an accurate one may lead on.
+        accuracy = final_accuracy;
+        visited.clear();
+        solution.history.pop_back();
+        continue;
+      }
       change = change == Change::leaping ? Change::by_sign : Change::one_by_one;
       solution.remark =
           change == Change::by_sign

@@ -64,11 +64,12 @@ Vector<double> DirectSolver::from_places(const Vector<double>& values) const {
   return contact_values;
 }
 
-Vector<double> DirectSolver::response(const Vector<double>& force) {
+Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {
   return from_places(schur->solve(to_places(force)));
 }
 
-void DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state) {
+double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
+                           double /*accuracy*/) {
   std::vector<bool> is_pinned(places.size());
   for (unsigned int i = 0; i < places.size(); ++i)
     is_pinned[places[i]] = pinned[i];
@@ -77,6 +78,7 @@ void DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state) {
     ++work.dense_factorisations;
   state.displacement = from_places(displacement);
   state.force = from_places(force);
+  return 0;
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {

@@ -21,10 +21,8 @@ void require_memory(double bytes, const std::string& purpose) {
       std::ostringstream message;
       message.precision(3);
       message << purpose << " needs " << bytes / gibibyte << " GiB of memory, and "
-              << 1024 * kibibytes / gibibyte
-              << " GiB are available; lower Mesh/Radial cells, Mesh/Angular cells or Mesh/Global "
-                 "refinements, or narrow Road/Contact zone";
-      throw NotSolved(message.str());
+              << 1024 * kibibytes / gibibyte << " GiB are available";
+      throw NotEnoughMemory(message.str());
     }
 }
 

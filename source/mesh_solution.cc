@@ -1,8 +1,8 @@
 #include "mesh_solution.h"
 
 #include "assembly.h"
-#include "direct_solver.h"
 #include "scene.h"
+#include "solver_choice.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -84,15 +84,19 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     solution.load = assemble_load(space, scene);
     ++work.load_assemblies;
   }
-  DirectSolver solver(space, scene, solution.load, work);
+  const auto [solver, remark] =
+      make_stiffness_solver(parameters.solver.kind, space, scene, solution.load, work);
   solution.problem = make_contact_problem(space, scene);
   {
     const Work::Phase phase(work, "contact");
-    solution.contact = solve_contact(solver, solution.problem, parameters, start);
+    solution.contact = solve_contact(*solver, solution.problem, parameters, start);
   }
-  solution.displacement = solver.displacement_field(solution.contact.state);
+  if (!remark.empty())
+    solution.contact.remark =
+        remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
+  solution.displacement = solver->displacement_field(solution.contact.state);
   const Work::Phase phase(work, "measurement");
-  solution.stiffness_times_u = solver.apply(solution.displacement);
+  solution.stiffness_times_u = solver->apply(solution.displacement);
   return solution;
 }
 

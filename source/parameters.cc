@@ -174,9 +174,13 @@ void declare(Declarations& keys, Parameters& p) {
 
   keys.enter("Solver");
   keys.add_choice<SolverKind>(
-      "Kind", p.solver.kind, {{"auto", SolverKind::automatic}, {"direct", SolverKind::direct}},
+      "Kind", p.solver.kind,
+      {{"auto", SolverKind::automatic},
+       {"direct", SolverKind::direct},
+       {"iterative", SolverKind::iterative}},
       "How linear problems are solved. \"direct\": one sparse Cholesky factorisation for each "
-      "mesh. \"auto\": the kind that suits the mesh, \"direct\" on one process.");
+      "mesh. \"iterative\": conjugate gradients with algebraic multigrid, slower but with less "
+      "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
   keys.leave();
 
   keys.enter("Study");

@@ -47,9 +47,8 @@ struct SparseCholesky::Cholmod {
 
   void check(const std::string& step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
-      throw NotSolved("the " + step +
-                      " of the stiffness matrix needs more memory than there is; lower "
-                      "Mesh/Radial cells, Mesh/Angular cells or Mesh/Global refinements");
+      throw NotEnoughMemory("the " + step +
+                            " of the stiffness matrix needs more memory than there is");
     if (common.status == CHOLMOD_NOT_POSDEF)
       throw NotSolved("the stiffness matrix is not positive definite in floating-point arithmetic "
                       "(" +

@@ -45,6 +45,7 @@ const std::vector<std::string>& figure_names() {
                                                  "seconds_assembly",
                                                  "seconds_ordering",
                                                  "seconds_factorisation",
+                                                 "seconds_preconditioner",
                                                  "seconds_contact",
                                                  "seconds_back-substitution",
                                                  "seconds_measurement",

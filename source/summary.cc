@@ -93,6 +93,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                   {"dense_factorisations", work.dense_factorisations},
                   {"forward_substitutions", work.forward_substitutions},
                   {"back_substitutions", work.back_substitutions},
+                  {"preconditioners", work.preconditioners},
                   {"bytes_written", work.bytes_written}};
   for (const auto& [phase, seconds] : work.seconds())
     json["seconds"][phase] = seconds;

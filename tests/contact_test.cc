@@ -27,7 +27,7 @@ public:
   DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
       : stiffness(stiffness), load(load) {}
 
-  void solve(const std::vector<bool>& pinned, ContactState& state) override {
+  double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
     const unsigned int n = load.size();
     FullMatrix<double> matrix(n, n);
     Vector<double> rhs(n), solution(n);
@@ -43,9 +43,10 @@ public:
     for (unsigned int i = 0; i < n; ++i)
       if (pinned[i])
         state.force(i) = load(i) - rhs(i);
+    return 0;
   }
 
-  Vector<double> response(const Vector<double>&) override { return {}; }
+  Vector<double> response(const Vector<double>&, double) override { return {}; }
   FieldVector displacement_field(const ContactState&) override { return {}; }
   FieldVector apply(const FieldVector&) const override { return {}; }
 

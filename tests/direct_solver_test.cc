@@ -137,7 +137,7 @@ TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
       (pinned[i] ? state.displacement(i) : state.force(i)) = value(random);
     }
     const ContactState given = state;
-    solver.solve(pinned, state);
+    solver.solve(pinned, state, 0);
     const FieldVector field = solver.displacement_field(state);
 
     FieldVector imbalance = solver.apply(field);

@@ -139,6 +139,18 @@ TEST_F(Program, OverridesTheFile) {
   EXPECT_EQ(json["scene"]["road_distance"], 0.9);
 }
 
+TEST_F(Program, SolvesIterativelyWhenAskedTo) {
+  const Outcome outcome = shell("$rollwave " + scene + " --set 'Solver/Kind=iterative'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const auto json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
+  EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-10);
+  EXPECT_GT(json["iterations"]["linear"], 0);
+  EXPECT_GT(json["work"]["preconditioners"], 0);
+  EXPECT_EQ(json["work"]["factorisations"], 1); // of the dual problem
+  EXPECT_TRUE(json["seconds"].contains("preconditioner"));
+}
+
 TEST_F(Program, PrintsHelpVersionAndParameters) {
   EXPECT_NE(shell("$rollwave --help").text.find("Usage"), std::string::npos);
   EXPECT_EQ(shell("$rollwave --help").exit_code, 0);

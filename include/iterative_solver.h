@@ -1,0 +1,74 @@
+#ifndef ROLLWAVE_ITERATIVE_SOLVER_H
+#define ROLLWAVE_ITERATIVE_SOLVER_H
+
+#include "mpi_session.h"
+#include "stiffness_solver.h"
+#include "work.h"
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/**
+ * The iterative kind: conjugate gradients on the nodes that are not pinned (f: free, p: pinned),
+ *
+ *     K_ff u_f = f_f - N_f - K_fp u_p,   then   N_p = f_p - K_pf u_f - K_pp u_p,
+ *
+ * preconditioned by algebraic multigrid (Trilinos' ML) for the same nodes, and started from the
+ * field of the solve before.
+ */
+class IterativeSolver : public StiffnessSolver {
+public:
+  /// Assembles K. @p load is the vector of assemble_load(), nullopt when it is zero; it must live
+  /// as long as the solver.
+  /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
+  IterativeSolver(const RingSpace& space, const Scene& scene,
+                  const std::optional<FieldVector>& load, Work& work);
+
+  double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
+  dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
+  FieldVector displacement_field(const ContactState& state) override;
+  FieldVector apply(const FieldVector& field) const override;
+
+private:
+  void assemble(const Scene& scene);
+  void pin(const std::vector<bool>& pinned);
+  bool is_pinned(dealii::types::global_dof_index dof) const { return pinned_dofs.is_element(dof); }
+
+  /// f_i - (K u)_i at a contact node.
+  double reaction(unsigned int node, const FieldVector& u) const;
+
+  /// Improves @p u until |rhs - matrix u|_2 <= accuracy scale(u); returns the ratio reached.
+  double conjugate_gradients(FieldVector& u, const FieldVector& rhs,
+                             const std::function<double(const FieldVector&)>& scale,
+                             double accuracy);
+
+  const RingSpace& space;
+  const std::optional<FieldVector>& load;
+  Work& work;
+  MpiSession mpi;
+
+  /// K, where pinned nodes are not coupled to any other: of their rows and columns the diagonal
+  /// entry is left.
+  dealii::TrilinosWrappers::SparseMatrix matrix;
+  dealii::IndexSet pinned_dofs;
+
+  /// The rows of K that belong to the contact nodes, in full.
+  std::vector<std::vector<std::pair<dealii::types::global_dof_index, double>>> contact_rows;
+
+  std::optional<dealii::TrilinosWrappers::PreconditionAMG> preconditioner; ///< of the matrix
+  FieldVector field; ///< u of the last solve, zero where a constraint holds
+};
+
+} // namespace rollwave
+
+#endif

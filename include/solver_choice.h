@@ -1,0 +1,31 @@
+#ifndef ROLLWAVE_SOLVER_CHOICE_H
+#define ROLLWAVE_SOLVER_CHOICE_H
+
+#include "parameters.h"
+#include "stiffness_solver.h"
+#include "work.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rollwave {
+
+struct Scene;
+
+/// A solver and, where its kind is not the one that the user may expect, the reason.
+struct SolverChoice {
+  std::unique_ptr<StiffnessSolver> solver;
+  std::string remark;
+};
+
+/// The kind of solver that @p kind asks for. "auto" is the direct kind or, where memory is too
+/// short for its factor, the iterative one. @p load is the vector of assemble_load(), nullopt when
+/// it is zero; it must live as long as the solver.
+/// @throws NotSolved as the kinds do.
+SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
+                                   const std::optional<FieldVector>& load, Work& work);
+
+} // namespace rollwave
+
+#endif

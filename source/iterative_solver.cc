@@ -1,0 +1,203 @@
+#include "iterative_solver.h"
+
+#include "assembly.h"
+#include "errors.h"
+#include "memory.h"
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/solver_cg.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+IterativeSolver::IterativeSolver(const RingSpace& space, const Scene& scene,
+                                 const std::optional<FieldVector>& load, Work& work)
+    : space(space), load(load), work(work), pinned_dofs(space.dof_handler().n_dofs()),
+      field(space.make_field()) {
+  const Work::Phase phase(work, "assembly");
+  assemble(scene);
+  ++work.stiffness_assemblies;
+}
+
+void IterativeSolver::assemble(const Scene& scene) {
+  const auto& handler = space.dof_handler();
+  const auto& constraints = space.constraints();
+  DynamicSparsityPattern pattern(handler.n_dofs());
+  DoFTools::make_sparsity_pattern(handler, pattern, constraints, /*keep_constrained_dofs=*/false);
+  // Measured: 59 bytes with linear elements, 41 with quadratic ones.
+  constexpr double bytes_per_entry = 60;
+  require_memory(bytes_per_entry * pattern.n_nonzero_elements(),
+                 "the stiffness matrix with its multigrid hierarchy");
+  matrix.reinit(handler.locally_owned_dofs(), pattern, field.get_mpi_communicator());
+  assemble_stiffness(space, scene, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+    constraints.distribute_local_to_global(cell_matrix, dofs, matrix);
+  });
+  matrix.compress(VectorOperation::add);
+
+  for (const SurfaceNode& node : space.contact_nodes()) {
+    contact_rows.emplace_back();
+    for (auto entry = pattern.begin(node.dof); entry != pattern.end(node.dof); ++entry)
+      contact_rows.back().emplace_back(entry->column(), matrix.el(node.dof, entry->column()));
+  }
+}
+
+void IterativeSolver::pin(const std::vector<bool>& pinned) {
+  IndexSet dofs(pinned_dofs.size());
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (pinned[i])
+      dofs.add_index(space.contact_nodes()[i].dof);
+  dofs.compress();
+  if (dofs == pinned_dofs)
+    return;
+  preconditioner.reset();
+  pinned_dofs = dofs;
+  for (unsigned int i = 0; i < contact_rows.size(); ++i) {
+    const auto row = space.contact_nodes()[i].dof;
+    for (const auto& [column, value] : contact_rows[i]) {
+      const bool is_left = row == column || !(is_pinned(row) || is_pinned(column));
+      matrix.set(row, column, is_left ? value : 0.);
+      matrix.set(column, row, is_left ? value : 0.);
+    }
+  }
+  matrix.compress(VectorOperation::insert);
+}
+
+double IterativeSolver::reaction(unsigned int node, const FieldVector& u) const {
+  double force = load ? (*load)(space.contact_nodes()[node].dof) : 0.;
+  for (const auto& [column, value] : contact_rows[node])
+    force -= value * u(column);
+  return force;
+}
+
+double IterativeSolver::conjugate_gradients(FieldVector& u, const FieldVector& rhs,
+                                            const std::function<double(const FieldVector&)>& scale,
+                                            double accuracy) {
+  if (rhs.all_zero())
+    u = 0;
+  FieldVector residual = rhs;
+  matrix.vmult(residual, u);
+  residual -= rhs;
+  double norm = residual.l2_norm();
+  if (norm == 0)
+    return 0;
+  if (norm <= accuracy * scale(u))
+    return norm / scale(u);
+
+  if (!preconditioner) {
+    const Work::Phase phase(work, "preconditioner");
+    TrilinosWrappers::PreconditionAMG::AdditionalData settings;
+    settings.higher_order_elements = space.dof_handler().get_fe().degree > 1;
+    settings.aggregation_threshold = 0.05;
+    preconditioner.emplace();
+    preconditioner->initialize(matrix, settings);
+    ++work.preconditioners;
+  }
+
+  // The control accepts every residual, so that the end is up to the slot, which sees the field.
+  SolverControl control(std::numeric_limits<unsigned int>::max(),
+                        std::numeric_limits<double>::max(), /*log_history=*/false,
+                        /*log_result=*/false);
+  SolverCG<FieldVector> solver(control);
+  constexpr unsigned int most_iterations = 5000;
+  solver.connect([&](unsigned int iteration, double residual_norm, const FieldVector& iterate) {
+    norm = residual_norm;
+    if (norm <= accuracy * scale(iterate))
+      return SolverControl::success;
+    return iteration < most_iterations ? SolverControl::iterate : SolverControl::failure;
+  });
+  try {
+    solver.solve(matrix, u, rhs, *preconditioner);
+  } catch (const SolverControl::NoConvergence&) {
+    std::ostringstream message;
+    message << "conjugate gradients have reached the relative residual " << norm / scale(u)
+            << " in " << control.last_step() << " steps, wanted " << accuracy
+            << "; set Solver/Kind to direct, or change Mesh/Radial cells or Mesh/Angular cells to "
+               "cells that are less stretched";
+    throw NotSolved(message.str());
+  }
+  work.linear_iterations += control.last_step();
+  return norm / scale(u);
+}
+
+double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& state,
+                              double accuracy) {
+  const auto& nodes = space.contact_nodes();
+  AssertDimension(pinned.size(), nodes.size());
+  pin(pinned);
+
+  FieldVector rhs = load ? *load : space.make_field();
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (!pinned[i])
+      rhs(nodes[i].dof) -= state.force(i);
+    else {
+      field(nodes[i].dof) = state.displacement(i);
+      for (const auto& [column, value] : contact_rows[i])
+        if (!is_pinned(column))
+          rhs(column) -= value * state.displacement(i);
+        else if (column == nodes[i].dof)
+          rhs(column) = value * state.displacement(i);
+    }
+
+  const double load_norm = load ? load->l2_norm() : 0.;
+  const auto scale = [&](const FieldVector& u) {
+    double squared = 0;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      squared += std::pow(pinned[i] ? reaction(i, u) : state.force(i), 2);
+    return std::max(load_norm, std::sqrt(squared));
+  };
+  const double reached = conjugate_gradients(field, rhs, scale, accuracy);
+
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (pinned[i])
+      state.force(i) = reaction(i, field);
+    else
+      state.displacement(i) = field(nodes[i].dof);
+  return reached;
+}
+
+Vector<double> IterativeSolver::response(const Vector<double>& force, double accuracy) {
+  const auto& nodes = space.contact_nodes();
+  pin(std::vector<bool>(nodes.size(), false));
+  FieldVector rhs = space.make_field(), u = space.make_field();
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    rhs(nodes[i].dof) = force(i);
+  conjugate_gradients(
+      u, rhs, [&](const FieldVector&) { return force.l2_norm(); }, accuracy);
+  Vector<double> displacement(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    displacement(i) = u(nodes[i].dof);
+  return displacement;
+}
+
+FieldVector IterativeSolver::displacement_field(const ContactState& /*state*/) {
+  FieldVector u = field;
+  space.constraints().distribute(u);
+  return u;
+}
+
+FieldVector IterativeSolver::apply(const FieldVector& u) const {
+  FieldVector product = space.make_field();
+  matrix.vmult(product, u);
+  // What the matrix lacks: the couplings of pinned nodes.
+  for (unsigned int i = 0; i < contact_rows.size(); ++i) {
+    const auto row = space.contact_nodes()[i].dof;
+    if (is_pinned(row))
+      for (const auto& [column, value] : contact_rows[i])
+        if (column != row) {
+          product(row) += value * u(column);
+          if (!is_pinned(column))
+            product(column) += value * u(row);
+        }
+  }
+  space.constraints().set_zero(product);
+  return product;
+}
+
+} // namespace rollwave

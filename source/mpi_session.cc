@@ -1,0 +1,22 @@
+#include "mpi_session.h"
+
+#include <mpi.h>
+
+namespace rollwave {
+
+namespace {
+
+struct StartedMpi {
+  StartedMpi() { MPI_Init(nullptr, nullptr); }
+  ~StartedMpi() { MPI_Finalize(); }
+};
+
+} // namespace
+
+MpiSession::MpiSession() {
+  // MPI starts and ends once in a process, so that no solver can own it. It is not deal.II's
+  // MPI_InitFinalize, which must end within main(): it empties pools that are gone by then.
+  static const StartedMpi until_exit;
+}
+
+} // namespace rollwave

@@ -1,0 +1,255 @@
+// The iterative kind of solver gives the answer of the direct kind, and says what it took. ML
+// solves problems of fewer than 2000 unknowns directly, so that the meshes here have more.
+#include "iterative_solver.h"
+
+#include "active_set.h"
+#include "assembly.h"
+#include "errors.h"
+#include "mesh_solution.h"
+#include "solver_choice.h"
+#include "test_scenes.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace rollwave;
+using dealii::Vector;
+
+namespace {
+
+struct Answer {
+  Answer(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+         const std::string& kind)
+      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {},
+                              result.work)) {
+    measure(scene, space, on_mesh, result);
+  }
+
+  Result result = {};
+  MeshSolution on_mesh;
+};
+
+void expect_same_answer(const Scene& scene, const Parameters& parameters, const RingSpace& space) {
+  const Answer direct(scene, parameters, space, "direct");
+  const Answer iterative(scene, parameters, space, "iterative");
+
+  EXPECT_EQ(iterative.on_mesh.contact.active, direct.on_mesh.contact.active);
+  FieldVector difference = iterative.on_mesh.displacement;
+  difference -= direct.on_mesh.displacement;
+  EXPECT_LE(difference.linfty_norm(), 1e-10 * direct.on_mesh.displacement.linfty_norm());
+  EXPECT_NEAR(iterative.result.patch.force, direct.result.patch.force,
+              1e-10 * direct.result.patch.force);
+  EXPECT_NEAR(iterative.result.energy.value, direct.result.energy.value,
+              1e-10 * std::abs(direct.result.energy.value));
+
+  const Residuals& residuals = iterative.result.residuals;
+  EXPECT_LT(residuals.equilibrium, 1e-10);
+  EXPECT_LE(residuals.penetration, direct.result.residuals.penetration + 1e-10);
+  EXPECT_LE(residuals.negative_pressure, 1e-10);
+  EXPECT_LE(residuals.complementarity, direct.result.residuals.complementarity + 1e-10);
+
+  EXPECT_GT(iterative.result.work.linear_iterations, 0u);
+  EXPECT_GT(iterative.result.work.preconditioners, 0u);
+  EXPECT_EQ(iterative.result.work.factorisations, 0u);
+  EXPECT_EQ(direct.result.work.linear_iterations, 0u);
+  EXPECT_EQ(direct.result.work.preconditioners, 0u);
+}
+
+using Case = std::tuple<int, std::string, std::string>; ///< degree, omega, f
+
+class IterativeKind : public testing::TestWithParam<Case> {
+protected:
+  Parameters parameters(const std::vector<std::string>& more) const {
+    const auto& [degree, omega, force] = GetParam();
+    return with(
+        parameters_of({"Mesh/Degree=" + std::to_string(degree),
+                       "Cylinder/Angular velocity=" + omega, "Cylinder/Radial force=" + force}),
+        more);
+  }
+};
+
+TEST_P(IterativeKind, AgreesWithTheDirectKind) {
+  // Cells square, long in r and long in z.
+  for (const auto& [radial, angular] : {std::pair("16", "200"), {"5", "500"}, {"70", "40"}}) {
+    SCOPED_TRACE(std::string(radial) + " x " + angular);
+    const Parameters own = parameters(
+        {std::string("Mesh/Radial cells=") + radial, std::string("Mesh/Angular cells=") + angular});
+    const Scene scene = make_scene(own);
+    const Discretisation ring(scene, own);
+    expect_same_answer(scene, own, ring.space);
+  }
+}
+
+TEST_P(IterativeKind, AgreesWithTheDirectKindOnAnAdaptiveMesh) {
+  const Parameters own =
+      parameters({"Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Adaptive cycles=9",
+                  "Mesh/Indicator=residual", "Certificate/Error bound=false"});
+  const Scene scene = make_scene(own);
+  const Solution adaptive = simulate(scene, own);
+  ASSERT_GT(adaptive.result.cycles.size(), 9u);
+  ASSERT_GT(adaptive.result.mesh.dofs, 2500u);
+  expect_same_answer(scene, own, *adaptive.space);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scene, IterativeKind,
+                         testing::Combine(testing::Values(1, 2), testing::Values("0", "0.5", "1"),
+                                          testing::Values("0", "1 + r*sin(z)")));
+
+TEST(Iterative, SolvesUzawasProblems) {
+  for (const PaperScene& paper : {paper_scenes()[1], paper_scenes()[2]}) {
+    const Parameters own =
+        with(paper.parameters(), {"Mesh/Radial cells=12", "Mesh/Angular cells=150",
+                                  "Contact/Method=uzawa", "Contact/Tolerance=1e-12"});
+    const Scene scene = make_scene(own);
+    const Discretisation ring(scene, own);
+    expect_same_answer(scene, own, ring.space);
+  }
+}
+
+/// Both kinds of solver for one matrix, with a force and hanging nodes.
+class Kinds : public testing::Test {
+protected:
+  Kinds()
+      : parameters(parameters_of({"Mesh/Radial cells=10", "Mesh/Angular cells=126",
+                                  "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
+                                  "Cylinder/Radial force=1 + r*sin(z)"})),
+        scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
+        space(*adaptive.space), load(assemble_load(space, scene)),
+        direct(space, scene, load, direct_work), iterative(space, scene, load, iterative_work) {}
+
+  /// Random displacements on the pinned nodes, random forces on the others.
+  ContactState random_state(const std::vector<bool>& pinned) {
+    ContactState state;
+    state.displacement.reinit(pinned.size());
+    state.force.reinit(pinned.size());
+    for (unsigned int i = 0; i < pinned.size(); ++i)
+      (pinned[i] ? state.displacement(i) : state.force(i)) = value(random);
+    return state;
+  }
+
+  const Parameters parameters;
+  const Scene scene;
+  const Solution adaptive;
+  const RingSpace& space;
+  const std::optional<FieldVector> load;
+  Work direct_work, iterative_work;
+  DirectSolver direct;
+  IterativeSolver iterative;
+  std::mt19937 random{5};
+  std::uniform_real_distribution<double> value{-1, 1};
+};
+
+TEST_F(Kinds, AgreeForAnyPinnedNodes) {
+  const unsigned int m = space.contact_nodes().size();
+  for (int trial = 0; trial < 6; ++trial) {
+    std::vector<bool> pinned(m);
+    for (unsigned int i = 0; i < m; ++i)
+      pinned[i] = trial == 0 ? false : trial == 1 ? true : random() % 2;
+    ContactState one = random_state(pinned), other = one;
+    direct.solve(pinned, one, 0);
+    EXPECT_LE(iterative.solve(pinned, other, 1e-12), 1e-12);
+    for (unsigned int i = 0; i < m; ++i) {
+      EXPECT_NEAR(other.displacement(i), one.displacement(i), 1e-11);
+      EXPECT_NEAR(other.force(i), one.force(i), 1e-11);
+      if (pinned[i]) {
+        EXPECT_EQ(other.displacement(i), one.displacement(i));
+      }
+    }
+
+    FieldVector field = iterative.displacement_field(other);
+    FieldVector product = iterative.apply(field);
+    product -= direct.apply(field);
+    EXPECT_LT(product.linfty_norm(), 1e-13);
+    field -= direct.displacement_field(one);
+    EXPECT_LT(field.linfty_norm(), 1e-11);
+  }
+}
+
+TEST_F(Kinds, AgreeOnTheCompliance) {
+  Vector<double> force(space.contact_nodes().size());
+  for (double& nodal : force)
+    nodal = value(random);
+  Vector<double> difference = iterative.response(force, 1e-12);
+  const Vector<double> response = direct.response(force, 0);
+  difference -= response;
+  EXPECT_LE(difference.linfty_norm(), 1e-10 * response.linfty_norm());
+}
+
+TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
+  const std::vector<bool> pinned(space.contact_nodes().size(), true);
+  ContactState state = random_state(pinned);
+  iterative.solve(pinned, state, 1e-3);
+  const unsigned int loose = iterative_work.linear_iterations;
+  iterative.solve(pinned, state, 1e-3);
+  EXPECT_EQ(iterative_work.linear_iterations, loose);
+  iterative.solve(pinned, state, 1e-11);
+  const unsigned int both = iterative_work.linear_iterations;
+  EXPECT_GT(both, loose);
+  EXPECT_EQ(iterative_work.preconditioners, 1u);
+
+  Work work;
+  IterativeSolver fresh(space, scene, load, work);
+  fresh.solve(pinned, state, 1e-11);
+  EXPECT_LE(both, work.linear_iterations + 2);
+}
+
+TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
+  Work work;
+  const std::optional<FieldVector> no_load;
+  IterativeSolver solver(space, scene, no_load, work);
+  const unsigned int m = space.contact_nodes().size();
+  ContactState state = random_state(std::vector<bool>(m, true));
+  solver.solve(std::vector<bool>(m, true), state, 1e-11);
+  EXPECT_GT(state.force.l2_norm(), 0);
+  state.force = 0;
+  EXPECT_EQ(solver.solve(std::vector<bool>(m, false), state, 1e-11), 0);
+  EXPECT_EQ(state.displacement.linfty_norm(), 0);
+}
+
+TEST(Iterative, FullContactHasItsExactForceAtEverySpeed) {
+  const Parameters parameters =
+      parameters_of({"Mesh/Degree=2", "Mesh/Radial cells=16", "Mesh/Angular cells=12"});
+  for (const double omega : {0., 0.5, 1.}) {
+    const Scene scene = full_circle(0.5, 1, omega, -0.1);
+    const Discretisation ring(scene, parameters);
+    const Answer answer(scene, parameters, ring.space, "iterative");
+    EXPECT_EQ(answer.result.patch.active_nodes, 24u);
+    EXPECT_NEAR(answer.on_mesh.contact.state.force.l1_norm(),
+                2 * dealii::numbers::PI * 0.1 / std::log(2), 1e-6);
+  }
+}
+
+TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
+  // The dense problem of 300000 contact nodes needs 2 TiB.
+  const Parameters parameters =
+      parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=300000"});
+  const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
+  const Discretisation ring(scene, parameters);
+  const std::optional<FieldVector> no_load;
+  Work work;
+  const SolverChoice choice =
+      make_stiffness_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+  EXPECT_NE(dynamic_cast<const IterativeSolver*>(choice.solver.get()), nullptr);
+  EXPECT_NE(choice.remark.find("300000 contact nodes"), std::string::npos) << choice.remark;
+  EXPECT_THROW(make_stiffness_solver(SolverKind::direct, ring.space, scene, no_load, work),
+               NotEnoughMemory);
+}
+
+TEST(SolverChoice, IsDirectWhereThatFits) {
+  const Parameters parameters = parameters_of({"Mesh/Angular cells=20"});
+  const Scene scene = make_scene(parameters);
+  const Discretisation ring(scene, parameters);
+  const std::optional<FieldVector> no_load;
+  Work work;
+  const SolverChoice choice =
+      make_stiffness_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+  EXPECT_NE(dynamic_cast<const DirectSolver*>(choice.solver.get()), nullptr);
+  EXPECT_EQ(choice.remark, "");
+}
+
+} // namespace
