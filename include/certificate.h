@@ -4,11 +4,13 @@
 #include "feasible_trace.h"
 #include "result.h"
 
+#include <memory>
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
+class DualPotential;
 
 /**
  * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
@@ -44,10 +46,12 @@ struct Certificate {
   FeasibleTrace trace;             ///< v on the surface
 };
 
-/// Certifies the solution @p contact with the displacement @p field.
+/// Certifies the solution @p contact with the displacement @p field. @p dual is that of the same
+/// space, made here when it is empty.
 /// @throws NotSolved when memory is short.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field, Work& work);
+                    const ContactSolution& contact, const FieldVector& field,
+                    std::unique_ptr<DualPotential>& dual, Work& work);
 
 } // namespace rollwave
 

@@ -10,8 +10,6 @@
 
 namespace rollwave {
 
-struct Scene;
-
 /**
  * The direct kind: one sparse Cholesky factorisation of K with the contact nodes last. The problem
  * on the contact nodes is then dense and small,
@@ -24,29 +22,30 @@ struct Scene;
  */
 class DirectSolver : public StiffnessSolver {
 public:
-  /// Assembles and factorises K. @p load is the vector of assemble_load(), nullopt when it is zero.
-  /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
-  DirectSolver(const RingSpace& space, const Scene& scene, const std::optional<FieldVector>& load,
-               Work& work);
+  /// For scenes on @p space whose road is nearest where that of @p scene is.
+  DirectSolver(const RingSpace& space, const Scene& scene);
 
+  void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 
 private:
+  void factorise(const Scene& scene);
   dealii::Vector<double> to_places(const dealii::Vector<double>& contact_values) const;
   dealii::Vector<double> from_places(const dealii::Vector<double>& values) const;
   std::vector<double> gather(const FieldVector& field) const;
   FieldVector scatter(const std::vector<double>& unknowns) const;
 
   const RingSpace& space;
-  Work& work;
+  Work* work = nullptr;
 
   /// The number of each degree of freedom among the unknowns, contact nodes last; -1 if
   /// constrained.
   std::vector<int> unknown_of_dof;
-  std::vector<unsigned int> places; ///< of the contact nodes among the last unknowns
+  std::vector<unsigned int> places;       ///< of the contact nodes among the last unknowns
+  std::optional<double> angular_velocity; ///< of the scene that is factorised
   std::unique_ptr<SparseCholesky> cholesky;
   std::unique_ptr<SchurComplement> schur;
   std::vector<double> reduced_load;    ///< L^-1 P f; empty for f = 0

@@ -4,6 +4,11 @@
 #include "force_columns.h"
 #include "radial_shapes.h"
 #include "ring_space.h"
+#include "sparse_cholesky.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace rollwave {
 
@@ -31,16 +36,36 @@ struct EdgePressure {
  *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (G - psi_z)^2 / r dr dz.
  *
  * psi is prescribed on r = b up to a constant, free on the hub, and grows by b int lambda dz in a
- * period. Its nodal values are returned, both sides of the seam having their own.
- *
- * @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
- * @param columns nullptr when there is no force
- * @throws NotSolved when memory is short
+ * period. The factorisation is kept while the speed stays the same.
  */
-FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
-                                 RadialShapesOfMesh& shapes,
-                                 const std::vector<EdgePressure>& pressures, ForceColumns* columns,
-                                 Work& work);
+class DualPotential {
+public:
+  explicit DualPotential(const RingSpace& space);
+
+  /// The nodal values of psi, both sides of the seam having their own.
+  /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
+  /// @param columns nullptr when there is no force
+  /// @throws NotSolved when memory is short
+  FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
+                    const std::vector<EdgePressure>& pressures, ForceColumns* columns, Work& work);
+
+private:
+  void factorise(const Scene& scene, RadialShapesOfMesh& shapes,
+                 const dealii::AffineConstraints<double>& constraints, Work& work);
+
+  /// The right-hand side of the potential's equation, for its values prescribed in @p lift.
+  FieldVector assemble_load(RadialShapesOfMesh& shapes,
+                            const dealii::AffineConstraints<double>& constraints,
+                            const FieldVector& lift, ForceColumns* columns) const;
+
+  const RingSpace& space;
+  const dealii::FE_Q<2>& element;
+  const std::vector<unsigned int> numbering; ///< of a cell, the radial index running fastest
+  const ShapeProducts reference;
+  std::vector<int> unknown_of_dof;        ///< -1 where a constraint holds
+  std::optional<double> angular_velocity; ///< of the scene that is factorised
+  std::unique_ptr<SparseCholesky> cholesky;
+};
 
 } // namespace rollwave
 

@@ -16,8 +16,6 @@
 
 namespace rollwave {
 
-struct Scene;
-
 /**
  * The iterative kind: conjugate gradients on the nodes that are not pinned (f: free, p: pinned),
  *
@@ -28,11 +26,10 @@ struct Scene;
  */
 class IterativeSolver : public StiffnessSolver {
 public:
-  /// Assembles K. @p load is the vector of assemble_load(), nullopt when it is zero; it must live
-  /// as long as the solver.
+  explicit IterativeSolver(const RingSpace& space);
+
   /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
-  IterativeSolver(const RingSpace& space, const Scene& scene,
-                  const std::optional<FieldVector>& load, Work& work);
+  void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
@@ -53,8 +50,9 @@ private:
                              double accuracy);
 
   const RingSpace& space;
-  const std::optional<FieldVector>& load;
-  Work& work;
+  const std::optional<FieldVector>* load = nullptr;
+  Work* work = nullptr;
+  std::optional<double> angular_velocity; ///< of the matrix
   MpiSession mpi;
 
   /// K, where pinned nodes are not coupled to any other: of their rows and columns the diagonal

@@ -16,11 +16,11 @@ namespace rollwave {
  * E opens them by |G'| d/2, the width w of the energy bounds by w/d: d is the square root of 2 w /
  * |G'|, with G' guessed from G and the half-width of contact.
  *
- * @p solution is that of @p scene on @p space, with @p result.
+ * @p solution is that of @p scene on @p space by @p system, with @p result.
  * @throws NotSolved when a solver fails.
  */
 LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-                      const MeshSolution& solution, Result& result);
+                      const MeshSolution& solution, MeshSystem& system, Result& result);
 
 } // namespace rollwave
 

@@ -2,9 +2,8 @@
 #define ROLLWAVE_MESH_SOLUTION_H
 
 #include "contact_solver.h"
+#include "mesh_system.h"
 #include "result.h"
-
-#include <optional>
 
 namespace rollwave {
 
@@ -12,21 +11,19 @@ namespace rollwave {
 struct MeshSolution {
   ContactProblem problem;
   ContactSolution contact;
-  FieldVector displacement;        ///< u_h
-  FieldVector stiffness_times_u;   ///< K u_h
-  std::optional<FieldVector> load; ///< nullopt without force
+  FieldVector displacement;      ///< u_h
+  FieldVector stiffness_times_u; ///< K u_h
 };
 
 /// Solves @p scene on @p space by the methods of @p parameters, beginning with the contact
-/// pressures
-/// @p start (none when it has no entries).
+/// pressures @p start (none when it has no entries). @p system is that of the same space.
 /// @throws BadInput where the force is not finite, NotSolved when a solver fails.
 MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-                           const dealii::Vector<double>& start, Work& work);
+                           const dealii::Vector<double>& start, MeshSystem& system, Work& work);
 
 /// Fills in what @p result tells of a solution on one mesh, and adds to its cycles.
-void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
-             Result& result);
+void measure(const Scene& scene, const RingSpace& space, const MeshSystem& system,
+             const MeshSolution& solution, Result& result);
 
 } // namespace rollwave
 

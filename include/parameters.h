@@ -108,6 +108,7 @@ struct Parameters {
     std::vector<std::vector<Setting>> vary;
     std::vector<std::optional<unsigned int>> published_steps;
     bool true_errors = false;
+    bool continue_meshes = false;
     unsigned int reference_unknowns = 300000;
   } study;
 

@@ -22,14 +22,19 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
  * cut gains no more than a factor of 2 in eta_K^2, are not behind the others.
  *
+ * Where @p coarsens, four parts of a cell are first made one again if that would have less than
+ * half of the squared indicator of the last cell marked, by the same rule.
+ *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
  * and at corners as well.
  *
- * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter
+ * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter, and
+ *         none is coarsened
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                 Marking marking, double fraction, unsigned int degree, double most_cells);
+                 Marking marking, double fraction, unsigned int degree, double most_cells,
+                 bool coarsens);
 
 } // namespace rollwave
 

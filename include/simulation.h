@@ -15,6 +15,17 @@ namespace rollwave {
  */
 Solution simulate(const Scene& scene, const Parameters& parameters);
 
+/**
+ * Solves one of several scenes after another, @p previous, whose mesh parameters, radii and zone
+ * are the same; an empty @p previous begins. The first mesh is the last one of @p previous. What
+ * depends on the mesh alone is not computed again, and what depends on mesh and speed only if the
+ * speed differs. With adaptive cycles the contact iteration begins with the pressure of @p
+ * previous, and cells that have become too fine are coarsened.
+ *
+ * @throws BadInput, NotSolved as simulate().
+ */
+Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous);
+
 } // namespace rollwave
 
 #endif

@@ -2,6 +2,7 @@
 #define ROLLWAVE_SOLUTION_H
 
 #include "certificate.h"
+#include "mesh_system.h"
 #include "result.h"
 #include "ring_space.h"
 
@@ -14,6 +15,7 @@ namespace rollwave {
 struct Solution {
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
   std::unique_ptr<RingSpace> space;
+  MeshSystem system;        ///< empty but for what simulate_next() keeps
   FieldVector displacement; ///< u_h
   std::optional<Certificate> certificate;
   Result result;

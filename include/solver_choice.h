@@ -19,9 +19,9 @@ struct SolverChoice {
   std::string remark;
 };
 
-/// The kind of solver that @p kind asks for. "auto" is the direct kind or, where memory is too
-/// short for its factor, the iterative one. @p load is the vector of assemble_load(), nullopt when
-/// it is zero; it must live as long as the solver.
+/// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or,
+/// where memory is too short for its factor, the iterative one. @p load and @p work are as for
+/// StiffnessSolver::turn_to().
 /// @throws NotSolved as the kinds do.
 SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                                    const std::optional<FieldVector>& load, Work& work);

@@ -36,14 +36,19 @@ struct LowerTriplets {
  */
 class SparseCholesky {
 public:
-  /// Sums up the triplets and orders and analyses the matrix. The order of two unknowns is free
-  /// within a group, and else that of their @p groups: n numbers from 0 on, of which the last m
-  /// have no meaning. @throws NotSolved when memory is short.
-  SparseCholesky(const std::vector<int>& groups, int m, const LowerTriplets& triplets);
+  /// The order of two unknowns is free within a group, and else that of their @p groups: n numbers
+  /// from 0 on, of which the last m have no meaning.
+  SparseCholesky(std::vector<int> groups, int m);
   ~SparseCholesky();
+
+  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, orders and
+  /// analyses it. @return whether it did. @throws NotSolved when memory is short.
+  bool set_matrix(const LowerTriplets& triplets);
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
   void factorise();
+
+  std::size_t size() const { return groups.size(); }
 
   /// K x
   std::vector<double> multiply(const std::vector<double>& x) const;
@@ -66,8 +71,9 @@ private:
   std::vector<double> from_order(const std::vector<double>& x) const;
 
   std::unique_ptr<Cholmod> cholmod;
+  std::vector<int> groups;
   int m;
-  std::vector<int> order; ///< which unknown is eliminated as the k-th
+  std::vector<int> order; ///< which unknown is eliminated as the k-th; empty without a matrix
 };
 
 } // namespace rollwave

@@ -5,9 +5,13 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <optional>
 #include <vector>
 
 namespace rollwave {
+
+struct Scene;
+class Work;
 
 /// The state of the contact nodes, in the order of RingSpace::contact_nodes().
 struct ContactState {
@@ -29,6 +33,12 @@ struct ContactState {
 class StiffnessSolver {
 public:
   virtual ~StiffnessSolver() = default;
+
+  /// Turns to a scene, which may differ from the one before in its speed, force and road: only what
+  /// depends on what has changed is computed again. @p load is the vector of assemble_load(),
+  /// nullopt when it is zero; it and @p work must live until the next call or the last use.
+  /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
+  virtual void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) = 0;
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.

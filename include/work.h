@@ -14,7 +14,8 @@ class Work {
 public:
   unsigned int load_assemblies = 0;
   unsigned int stiffness_assemblies = 0;
-  unsigned int factorisations = 0;       ///< of the sparse stiffness matrix
+  unsigned int orderings = 0;            ///< of sparse matrices, with their symbolic analysis
+  unsigned int factorisations = 0;       ///< of sparse matrices
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;
   unsigned int back_substitutions = 0;

@@ -214,7 +214,8 @@ private:
 } // namespace
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field, Work& work) {
+                    const ContactSolution& contact, const FieldVector& field,
+                    std::unique_ptr<DualPotential>& dual, Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGauss<1> gauss(degree + 2);
@@ -226,8 +227,10 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = edge_pressures(space, scene, problem, contact);
+  if (!dual)
+    dual = std::make_unique<DualPotential>(space);
   const FieldVector potential =
-      solve_dual_potential(space, scene, shapes, pressures, columns ? &*columns : nullptr, work);
+      dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
   std::vector<int> face_of_cell(triangulation.n_active_cells(), -1);

@@ -2,6 +2,7 @@
 
 #include "memory.h"
 #include "nested_dissection.h"
+#include "scene.h"
 #include "stiffness_triplets.h"
 
 #include <algorithm>
@@ -10,44 +11,59 @@ namespace rollwave {
 
 using namespace dealii;
 
-DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene,
-                           const std::optional<FieldVector>& load, Work& work)
-    : space(space), work(work), unknown_of_dof(number_unknowns(space, scene)) {
-  const unsigned int m = space.contact_nodes().size(), n = space.n_unknowns();
+DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene)
+    : space(space), unknown_of_dof(number_unknowns(space, scene)) {
+  const unsigned int first_contact_unknown = space.n_unknowns() - space.contact_nodes().size();
   for (const SurfaceNode& node : space.contact_nodes())
-    places.push_back(unknown_of_dof[node.dof] - (n - m));
-  {
-    LowerTriplets triplets;
-    {
-      const Work::Phase phase(work, "assembly");
-      triplets = assemble_triplets(space, scene, unknown_of_dof);
-      ++work.stiffness_assemblies;
-    }
-    const Work::Phase phase(work, "ordering");
-    std::vector<int> groups(n);
-    const std::vector<int> group_of_dof = dissect(space);
-    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-      if (unknown_of_dof[dof] >= 0)
-        groups[unknown_of_dof[dof]] = group_of_dof[dof];
-    cholesky = std::make_unique<SparseCholesky>(groups, m, triplets);
-  }
-  {
-    const Work::Phase phase(work, "factorisation");
-    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
-                   "the factor of the stiffness matrix with " + std::to_string(m) +
-                       " contact nodes");
-    cholesky->factorise();
-    ++work.factorisations;
-  }
+    places.push_back(unknown_of_dof[node.dof] - first_contact_unknown);
+}
+
+void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) {
+  this->work = &work;
+  if (angular_velocity != scene.angular_velocity)
+    factorise(scene);
 
   const Work::Phase phase(work, "contact");
-  schur = std::make_unique<SchurComplement>(cholesky->trailing_factor());
+  const unsigned int m = places.size();
   contact_load.reinit(m);
+  reduced_load.clear();
   if (load) {
     reduced_load = cholesky->forward(gather(*load));
     ++work.forward_substitutions;
     contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
+}
+
+void DirectSolver::factorise(const Scene& scene) {
+  const unsigned int m = places.size();
+  angular_velocity.reset(); // until the factor is there
+  schur.reset();
+  {
+    LowerTriplets triplets;
+    {
+      const Work::Phase phase(*work, "assembly");
+      triplets = assemble_triplets(space, scene, unknown_of_dof);
+      ++work->stiffness_assemblies;
+    }
+    const Work::Phase phase(*work, "ordering");
+    if (!cholesky) {
+      std::vector<int> groups(space.n_unknowns());
+      const std::vector<int> group_of_dof = dissect(space);
+      for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+        if (unknown_of_dof[dof] >= 0)
+          groups[unknown_of_dof[dof]] = group_of_dof[dof];
+      cholesky = std::make_unique<SparseCholesky>(std::move(groups), m);
+    }
+    if (cholesky->set_matrix(triplets))
+      ++work->orderings;
+  }
+  const Work::Phase phase(*work, "factorisation");
+  require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
+                 "the factor of the stiffness matrix with " + std::to_string(m) + " contact nodes");
+  cholesky->factorise();
+  ++work->factorisations;
+  schur = std::make_unique<SchurComplement>(cholesky->trailing_factor());
+  angular_velocity = scene.angular_velocity;
 }
 
 Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
@@ -75,20 +91,20 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
     is_pinned[places[i]] = pinned[i];
   Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
   if (schur->solve(is_pinned, contact_load, displacement, force) > 0)
-    ++work.dense_factorisations;
+    ++work->dense_factorisations;
   state.displacement = from_places(displacement);
   state.force = from_places(force);
   return 0;
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
-  const Work::Phase phase(work, "back-substitution");
+  const Work::Phase phase(*work, "back-substitution");
   std::vector<double> rhs =
       reduced_load.empty() ? std::vector<double>(space.n_unknowns(), 0.) : reduced_load;
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
   const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
-  ++work.back_substitutions;
+  ++work->back_substitutions;
   return scatter(cholesky->backward(rhs));
 }
 

@@ -75,28 +75,76 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
 
 } // namespace
 
-FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
-                                 RadialShapesOfMesh& shapes,
+DualPotential::DualPotential(const RingSpace& space)
+    : space(space), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+      numbering(element.get_poly_space_numbering_inverse()),
+      reference(reference_products(element.degree)) {}
+
+FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
                                  const std::vector<EdgePressure>& pressures, ForceColumns* columns,
                                  Work& work) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const unsigned int n = element.degree + 1, dofs_per_cell = n * n;
   const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
+  if (angular_velocity != scene.angular_velocity)
+    factorise(scene, shapes, constraints, work);
   FieldVector lift = space.make_field();
   constraints.distribute(lift);
+  const FieldVector rhs = assemble_load(shapes, constraints, lift, columns);
 
-  std::vector<int> unknown_of_dof(lift.size(), 0);
-  for (const auto& line : constraints.get_lines())
-    unknown_of_dof[line.index] = -1;
-  const std::vector<int> group_of_dof = dissect(space);
-  std::vector<int> groups; // of the unknowns
+  std::vector<double> unknowns(cholesky->size());
   for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] == 0) {
-      unknown_of_dof[dof] = groups.size();
-      groups.push_back(group_of_dof[dof]);
-    }
+    if (unknown_of_dof[dof] >= 0)
+      unknowns[unknown_of_dof[dof]] = rhs(dof);
+  unknowns = cholesky->backward(cholesky->forward(unknowns));
+  ++work.forward_substitutions;
+  ++work.back_substitutions;
+  FieldVector potential = space.make_field();
+  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+    if (unknown_of_dof[dof] >= 0)
+      potential(dof) = unknowns[unknown_of_dof[dof]];
+  constraints.distribute(potential);
+  return potential;
+}
 
-  const ShapeProducts reference = reference_products(element.degree);
+void DualPotential::factorise(const Scene& scene, RadialShapesOfMesh& shapes,
+                              const AffineConstraints<double>& constraints, Work& work) {
+  angular_velocity.reset(); // until the factor is there
+  if (!cholesky) {
+    unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
+    const std::vector<int> group_of_dof = dissect(space);
+    std::vector<int> groups; // of the unknowns
+    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+      if (!constraints.is_constrained(dof)) {
+        unknown_of_dof[dof] = groups.size();
+        groups.push_back(group_of_dof[dof]);
+      }
+    cholesky = std::make_unique<SparseCholesky>(std::move(groups), 0);
+  }
+  {
+    TripletAssembler assembler(space, constraints, unknown_of_dof);
+    FullMatrix<double> cell_matrix(numbering.size());
+    std::vector<types::global_dof_index> dofs(numbering.size()), ordered(numbering.size());
+    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+      // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1], cell_matrix);
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        ordered[i] = dofs[numbering[i]];
+      assembler.add(ordered, cell_matrix);
+    }
+    if (cholesky->set_matrix(assembler.triplets))
+      ++work.orderings;
+  }
+  require_memory(sizeof(double) * cholesky->n_factor_entries(), "the factor of the dual problem");
+  cholesky->factorise();
+  ++work.factorisations;
+  angular_velocity = scene.angular_velocity;
+}
+
+FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
+                                         const AffineConstraints<double>& constraints,
+                                         const FieldVector& lift, ForceColumns* columns) const {
+  const unsigned int n = element.degree + 1;
   const QGauss<1> gauss(element.degree + 2);
   FullMatrix<double> angular_derivative(gauss.size(), n); // on [0, 1]
   const auto lagrange = lobatto_lagrange(element.degree);
@@ -106,29 +154,24 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
       lagrange[j].value(gauss.point(p)[0], both);
       angular_derivative(p, j) = both[1];
     }
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  TripletAssembler assembler(space, constraints, unknown_of_dof);
-  FullMatrix<double> cell_matrix(dofs_per_cell);
-  std::vector<types::global_dof_index> dofs(dofs_per_cell), ordered(dofs_per_cell);
-  Vector<double> cell_vector(dofs_per_cell), cell_lift(dofs_per_cell);
+
+  FullMatrix<double> cell_matrix(n * n);
+  std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
+  Vector<double> cell_vector(n * n), cell_lift(n * n);
   FieldVector rhs = space.make_field();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
-    // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
-    const double length = high[1] - low[1];
-    tensor_matrix(radial.products, reference, length, cell_matrix);
-
     cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs_per_cell; ++i) {
+    for (unsigned int i = 0; i < dofs.size(); ++i) {
       ordered[i] = dofs[numbering[i]];
       cell_lift(i) = lift(ordered[i]);
     }
-    assembler.add(ordered, cell_matrix);
-
     // Only cells at the surface and the seam feel the values prescribed there.
     if (!columns && cell_lift.all_zero())
       continue;
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    const RadialShapes& radial = shapes.on(low[0], high[0]);
+    const double length = high[1] - low[1];
+    tensor_matrix(radial.products, reference, length, cell_matrix);
     cell_matrix.vmult(cell_vector, cell_lift);
     cell_vector *= -1;
     if (columns)
@@ -146,25 +189,7 @@ FieldVector solve_dual_potential(const RingSpace& space, const Scene& scene,
       }
     constraints.distribute_local_to_global(cell_vector, ordered, rhs);
   }
-
-  SparseCholesky cholesky(groups, 0, assembler.triplets);
-  assembler.triplets = {};
-  require_memory(sizeof(double) * cholesky.n_factor_entries(), "the factor of the dual problem");
-  cholesky.factorise();
-  ++work.factorisations;
-  std::vector<double> unknowns(groups.size());
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      unknowns[unknown_of_dof[dof]] = rhs(dof);
-  unknowns = cholesky.backward(cholesky.forward(unknowns));
-  ++work.forward_substitutions;
-  ++work.back_substitutions;
-  FieldVector potential = space.make_field();
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      potential(dof) = unknowns[unknown_of_dof[dof]];
-  constraints.distribute(potential);
-  return potential;
+  return rhs;
 }
 
 } // namespace rollwave

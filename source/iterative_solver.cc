@@ -3,6 +3,7 @@
 #include "assembly.h"
 #include "errors.h"
 #include "memory.h"
+#include "scene.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -17,12 +18,19 @@ namespace rollwave {
 
 using namespace dealii;
 
-IterativeSolver::IterativeSolver(const RingSpace& space, const Scene& scene,
-                                 const std::optional<FieldVector>& load, Work& work)
-    : space(space), load(load), work(work), pinned_dofs(space.dof_handler().n_dofs()),
-      field(space.make_field()) {
+IterativeSolver::IterativeSolver(const RingSpace& space)
+    : space(space), pinned_dofs(space.dof_handler().n_dofs()), field(space.make_field()) {}
+
+void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load,
+                              Work& work) {
+  this->load = &load;
+  this->work = &work;
+  if (angular_velocity == scene.angular_velocity)
+    return;
   const Work::Phase phase(work, "assembly");
+  angular_velocity.reset();
   assemble(scene);
+  angular_velocity = scene.angular_velocity;
   ++work.stiffness_assemblies;
 }
 
@@ -41,6 +49,9 @@ void IterativeSolver::assemble(const Scene& scene) {
   });
   matrix.compress(VectorOperation::add);
 
+  preconditioner.reset();
+  pinned_dofs.clear();
+  contact_rows.clear();
   for (const SurfaceNode& node : space.contact_nodes()) {
     contact_rows.emplace_back();
     for (auto entry = pattern.begin(node.dof); entry != pattern.end(node.dof); ++entry)
@@ -70,7 +81,7 @@ void IterativeSolver::pin(const std::vector<bool>& pinned) {
 }
 
 double IterativeSolver::reaction(unsigned int node, const FieldVector& u) const {
-  double force = load ? (*load)(space.contact_nodes()[node].dof) : 0.;
+  double force = *load ? (**load)(space.contact_nodes()[node].dof) : 0.;
   for (const auto& [column, value] : contact_rows[node])
     force -= value * u(column);
   return force;
@@ -91,13 +102,13 @@ double IterativeSolver::conjugate_gradients(FieldVector& u, const FieldVector& r
     return norm / scale(u);
 
   if (!preconditioner) {
-    const Work::Phase phase(work, "preconditioner");
+    const Work::Phase phase(*work, "preconditioner");
     TrilinosWrappers::PreconditionAMG::AdditionalData settings;
     settings.higher_order_elements = space.dof_handler().get_fe().degree > 1;
     settings.aggregation_threshold = 0.05;
     preconditioner.emplace();
     preconditioner->initialize(matrix, settings);
-    ++work.preconditioners;
+    ++work->preconditioners;
   }
 
   // The control accepts every residual, so that the end is up to the slot, which sees the field.
@@ -122,7 +133,7 @@ double IterativeSolver::conjugate_gradients(FieldVector& u, const FieldVector& r
                "cells that are less stretched";
     throw NotSolved(message.str());
   }
-  work.linear_iterations += control.last_step();
+  work->linear_iterations += control.last_step();
   return norm / scale(u);
 }
 
@@ -132,7 +143,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& sta
   AssertDimension(pinned.size(), nodes.size());
   pin(pinned);
 
-  FieldVector rhs = load ? *load : space.make_field();
+  FieldVector rhs = *load ? **load : space.make_field();
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (!pinned[i])
       rhs(nodes[i].dof) -= state.force(i);
@@ -145,7 +156,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& sta
           rhs(column) = value * state.displacement(i);
     }
 
-  const double load_norm = load ? load->l2_norm() : 0.;
+  const double load_norm = *load ? (*load)->l2_norm() : 0.;
   const auto scale = [&](const FieldVector& u) {
     double squared = 0;
     for (unsigned int i = 0; i < nodes.size(); ++i)

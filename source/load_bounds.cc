@@ -11,7 +11,7 @@ namespace rollwave {
 using namespace dealii;
 
 LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-                      const MeshSolution& solution, Result& result) {
+                      const MeshSolution& solution, MeshSystem& system, Result& result) {
   const CertifiedError here = *result.certified;
   const double b = scene.outer_radius, c = parameters.road.distance;
   const double w = result.patch.half_width();
@@ -30,8 +30,9 @@ LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const Ri
     Scene moved = scene;
     moved.road = flat_road(b, distance);
     moved.road_slope = flat_road_slope(distance);
-    const MeshSolution there = solve_on_mesh(moved, parameters, space, start, result.work);
-    return certify(space, moved, there.problem, there.contact, there.displacement, result.work);
+    const MeshSolution there = solve_on_mesh(moved, parameters, space, start, system, result.work);
+    return certify(space, moved, there.problem, there.contact, there.displacement, system.potential,
+                   result.work);
   };
   const Certificate near = certify_at(c - step), far = certify_at(c + step);
   return {std::max(0., (here.lower_bound - far.error.upper_bound) / step),

@@ -2,7 +2,6 @@
 
 #include "assembly.h"
 #include "scene.h"
-#include "solver_choice.h"
 
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -77,15 +76,23 @@ std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVe
 } // namespace
 
 MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-                           const Vector<double>& start, Work& work) {
+                           const Vector<double>& start, MeshSystem& system, Work& work) {
   MeshSolution solution;
-  if (scene.force) {
+  const std::string& force = parameters.cylinder.radial_force;
+  if (!scene.force)
+    system.load.reset();
+  else if (!system.load || system.force != force) {
     const Work::Phase phase(work, "assembly");
-    solution.load = assemble_load(space, scene);
+    system.load = assemble_load(space, scene);
+    system.force = force;
     ++work.load_assemblies;
   }
-  const auto [solver, remark] =
-      make_stiffness_solver(parameters.solver.kind, space, scene, solution.load, work);
+  auto& [solver, remark] = system.stiffness;
+  if (solver)
+    solver->turn_to(scene, system.load, work);
+  else
+    system.stiffness =
+        make_stiffness_solver(parameters.solver.kind, space, scene, system.load, work);
   solution.problem = make_contact_problem(space, scene);
   {
     const Work::Phase phase(work, "contact");
@@ -100,10 +107,11 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
   return solution;
 }
 
-void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
-             Result& result) {
+void measure(const Scene& scene, const RingSpace& space, const MeshSystem& system,
+             const MeshSolution& solution, Result& result) {
   const Work::Phase phase(result.work, "measurement");
-  const auto& [problem, contact, displacement, stiffness_times_u, load] = solution;
+  const auto& [problem, contact, displacement, stiffness_times_u] = solution;
+  const auto& load = system.load;
   const double norm_squared = displacement * stiffness_times_u;
   result.mesh = describe_mesh(space);
   result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);

@@ -198,6 +198,11 @@ void declare(Declarations& keys, Parameters& p) {
                         "\"true\" or \"false\": whether to compare every run with the exact "
                         "solution of its scene or, where none is known, with an adaptive solution "
                         "of quadratic elements that is much finer.");
+  keys.add_choice<bool>(
+      "Continue meshes", p.study.continue_meshes, {{"false", false}, {"true", true}},
+      "\"true\" or \"false\": whether an adaptive run that differs from the one before in "
+      "road distance, speed or force only begins with its last mesh, coarsened where "
+      "that has become too fine, rather than with the coarsest.");
   keys.add_count("Reference unknowns", p.study.reference_unknowns, 1, most,
                  "The most unknowns of that finer solution.");
   keys.leave();

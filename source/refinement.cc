@@ -46,6 +46,15 @@ void clear_flags(Triangulation<2>& triangulation) {
     cell->clear_refine_flag();
 }
 
+/// Flags the cells for coarsening whose parents, of which they have the fraction @p left_to_part of
+/// the squares each, would have less than @p most.
+void flag_too_fine(Triangulation<2>& triangulation, const Vector<double>& squares, double most,
+                   double left_to_part) {
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->level() > 0 && squares(cell->active_cell_index()) < left_to_part * most)
+      cell->set_coarsen_flag();
+}
+
 /// Flags the cells with the largest values among those from @p last_marked on, so many that the
 /// mesh will have @p most_cells cells at most, or none when they would be too few to matter.
 /// Returns the value of the last.
@@ -71,11 +80,17 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>
   }
 }
 
-/// Cuts flagged cells; each part inherits its cell's square times @p left_to_part.
+/// Cuts and coarsens flagged cells; each part inherits its cell's square times @p left_to_part, a
+/// cell that is whole again that of a part over the same number.
 void execute(Triangulation<2>& triangulation, Vector<double>& squares, double left_to_part) {
   triangulation.clear_user_data();
-  for (const auto& cell : triangulation.active_cell_iterators())
+  for (const auto& cell : triangulation.active_cell_iterators()) {
     cell->set_user_index(cell->active_cell_index() + 1);
+    if (cell->coarsen_flag_set()) {
+      cell->parent()->set_user_index(cell->active_cell_index() + 1);
+      squares(cell->active_cell_index()) /= left_to_part;
+    }
+  }
   triangulation.execute_coarsening_and_refinement();
   Vector<double> inherited(triangulation.n_active_cells());
   for (const auto& cell : triangulation.active_cell_iterators())
@@ -88,7 +103,8 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
 } // namespace
 
 bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                 Marking marking, double fraction, unsigned int degree, double most_cells) {
+                 Marking marking, double fraction, unsigned int degree, double most_cells,
+                 bool coarsens) {
   Vector<double> squares(indicators.size());
   const double largest = *std::max_element(indicators.begin(), indicators.end());
   for (unsigned int i = 0; i < indicators.size() && largest > 0; ++i)
@@ -101,23 +117,36 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
     GridRefinement::refine_and_coarsen_fixed_number(triangulation, squares, fraction, 0.);
     break;
   case Marking::all:
-    triangulation.set_all_refine_flags();
+    break;
   }
   double last_marked = std::numeric_limits<double>::infinity();
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->refine_flag_set())
       last_marked = std::min(last_marked, squares(cell->active_cell_index()));
-  if (marking != Marking::all && last_marked > 0)
+  const double left_to_part = std::pow(4., -(degree + 1.));
+  bool is_changed = false;
+  if (coarsens) {
+    clear_flags(triangulation);
+    flag_too_fine(triangulation, squares, last_marked / 2, left_to_part);
+    triangulation.prepare_coarsening_and_refinement();
+    const unsigned int n_before = triangulation.n_active_cells();
+    execute(triangulation, squares, left_to_part);
+    is_changed = triangulation.n_active_cells() != n_before;
+  }
+  if (marking == Marking::all)
+    triangulation.set_all_refine_flags();
+  else if (last_marked > 0)
     flag(triangulation, squares, last_marked);
   triangulation.prepare_coarsening_and_refinement();
   if (n_cells_to_come(triangulation) > most_cells) {
-    if (marking == Marking::all)
-      return false;
+    if (marking == Marking::all) {
+      clear_flags(triangulation);
+      return is_changed;
+    }
     last_marked = flag_as_many_as_fit(triangulation, squares, last_marked, most_cells);
   }
   if (n_cells_to_come(triangulation) == triangulation.n_active_cells())
-    return false;
-  const double left_to_part = std::pow(4., -(degree + 1.));
+    return is_changed;
   execute(triangulation, squares, left_to_part);
   while (marking != Marking::all && last_marked > 0) {
     for (const auto& cell : triangulation.active_cell_iterators())

@@ -34,8 +34,9 @@ Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNod
 }
 
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
-  solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
-                                 on_mesh.displacement, solution.result.work);
+  solution.certificate =
+      certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
+              solution.system.potential, solution.result.work);
   solution.result.certified = solution.certificate->error;
   solution.result.cycles.back().certified = solution.certificate->error.relative;
 }
@@ -53,17 +54,16 @@ std::vector<double> indicate(Indicator indicator, const Scene& scene, const Mesh
 
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
 /// nothing is changed, when the mesh would get too large or no cell is marked.
-bool refine(const std::vector<double>& indicators, const Parameters& parameters,
+bool refine(const std::vector<double>& indicators, const Parameters& parameters, bool coarsens,
             Solution& solution) {
   const Work::Phase phase(solution.result.work, "mesh");
   const auto& mesh = parameters.mesh;
-  std::unique_ptr<RingSpace> old_space = std::move(solution.space);
+  const double most_cells = mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
   if (!refine_mesh(*solution.triangulation, indicators, mesh.marking, mesh.marked_fraction,
-                   mesh.degree, mesh.most_unknowns / (1. * mesh.degree * mesh.degree))) {
-    solution.space = std::move(old_space);
+                   mesh.degree, most_cells, coarsens))
     return false;
-  }
   solution.certificate.reset();
+  solution.system = {};
   solution.result.certified.reset();
   return true;
 }
@@ -76,9 +76,10 @@ std::string shortfall_text(const Parameters& parameters, double reached) {
   return text.str();
 }
 
-} // namespace
+/// Which parts of the linear problems are kept when they have been used.
+enum class Keep { nothing, everything };
 
-Solution simulate(const Scene& scene, const Parameters& parameters) {
+Solution run(const Scene& scene, const Parameters& parameters, Solution previous, Keep keep) {
   const auto& mesh = parameters.mesh;
   const bool certifies = parameters.certificate.error_bound;
   const bool wants_error = mesh.wanted_relative_error > 0;
@@ -89,27 +90,40 @@ Solution simulate(const Scene& scene, const Parameters& parameters) {
     indicator = certifies ? Indicator::certificate : Indicator::residual;
 
   Solution solution;
-  {
+  solution.triangulation = std::move(previous.triangulation);
+  solution.space = std::move(previous.space);
+  solution.system = std::move(previous.system);
+  const bool continues = solution.triangulation != nullptr;
+  if (!continues) {
     const Work::Phase phase(solution.result.work, "mesh");
     solution.triangulation = make_ring_mesh(scene, parameters);
   }
+  // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
+  // solved before.
+  const Result before = most_cycles > 0 ? std::move(previous.result) : Result();
   for (unsigned int cycle = 0;; ++cycle) {
     Result& result = solution.result;
-    {
+    if (cycle > 0 || !continues) {
       const Work::Phase phase(result.work, "space");
+      solution.system = {};
       solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
     }
+    const bool is_last = cycle == most_cycles;
+    const bool is_used_again =
+        keep == Keep::everything || (parameters.certificate.load_bounds && most_cycles == 0);
     MeshSolution on_mesh =
         solve_on_mesh(scene, parameters, *solution.space,
-                      carry_pressure(result, solution.space->contact_nodes()), result.work);
-    measure(scene, *solution.space, on_mesh, result);
-    const bool is_last = cycle == most_cycles;
+                      carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
+                      solution.system, result.work);
+    measure(scene, *solution.space, solution.system, on_mesh, result);
+    if (!is_used_again)
+      solution.system.stiffness = {};
     if (certifies && (is_last || wants_error || indicator == Indicator::certificate))
       certify_solution(scene, on_mesh, solution);
     const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
     if (!is_reached && !is_last) {
       const std::vector<double> indicators = indicate(indicator, scene, on_mesh, solution);
-      if (refine(indicators, parameters, solution)) {
+      if (refine(indicators, parameters, continues && cycle == 0, solution)) {
         double squared = 0;
         for (const double eta : indicators)
           squared += eta * eta;
@@ -122,10 +136,23 @@ Solution simulate(const Scene& scene, const Parameters& parameters) {
     if (wants_error && !is_reached)
       result.shortfall = shortfall_text(parameters, result.certified->relative);
     if (parameters.certificate.load_bounds)
-      result.load_bounds = bound_load(scene, parameters, *solution.space, on_mesh, result);
+      result.load_bounds =
+          bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);
+    if (keep == Keep::nothing)
+      solution.system = {};
     solution.displacement = std::move(on_mesh.displacement);
     return solution;
   }
+}
+
+} // namespace
+
+Solution simulate(const Scene& scene, const Parameters& parameters) {
+  return run(scene, parameters, {}, Keep::nothing);
+}
+
+Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous) {
+  return run(scene, parameters, std::move(previous), Keep::everything);
 }
 
 } // namespace rollwave

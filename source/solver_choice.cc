@@ -8,16 +8,20 @@ namespace rollwave {
 
 SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                                    const std::optional<FieldVector>& load, Work& work) {
-  std::string remark;
+  SolverChoice choice;
   if (kind != SolverKind::iterative)
     try {
-      return {std::make_unique<DirectSolver>(space, scene, load, work), ""};
+      choice.solver = std::make_unique<DirectSolver>(space, scene);
+      choice.solver->turn_to(scene, load, work);
+      return choice;
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
         throw;
-      remark = "solved iteratively: " + shortage.reason;
+      choice.remark = "solved iteratively: " + shortage.reason;
     }
-  return {std::make_unique<IterativeSolver>(space, scene, load, work), remark};
+  choice.solver = std::make_unique<IterativeSolver>(space);
+  choice.solver->turn_to(scene, load, work);
+  return choice;
 }
 
 } // namespace rollwave

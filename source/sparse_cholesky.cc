@@ -76,10 +76,29 @@ struct SparseCholesky::Cholmod {
   }
 
   /// Makes the lower triangle of P K P^T the matrix, and frees @p upper.
-  void permute(cholmod_sparse* upper, std::vector<int>& order) {
+  void set(cholmod_sparse* upper, std::vector<int>& order) {
+    cholmod_free_sparse(&matrix, &common);
     matrix = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
     cholmod_free_sparse(&upper, &common);
     check("assembly");
+  }
+
+  /// Does the same if the pattern stays as it is; otherwise returns false and keeps @p upper.
+  bool replace(cholmod_sparse* upper, std::vector<int>& order) {
+    cholmod_sparse* next = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
+    check("assembly");
+    const auto* const columns = static_cast<const int*>(matrix->p);
+    const auto* const next_columns = static_cast<const int*>(next->p);
+    const auto* const rows = static_cast<const int*>(matrix->i);
+    const bool is_same =
+        std::equal(columns, columns + matrix->ncol + 1, next_columns) &&
+        std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(next->i));
+    if (is_same) {
+      std::swap(matrix, next);
+      cholmod_free_sparse(&upper, &common);
+    }
+    cholmod_free_sparse(&next, &common);
+    return is_same;
   }
 
   /// Solves with one of the systems L, Lt, P, Pt.
@@ -104,20 +123,28 @@ struct SparseCholesky::Cholmod {
   }
 };
 
-SparseCholesky::SparseCholesky(const std::vector<int>& groups, int m, const LowerTriplets& triplets)
-    : cholmod(std::make_unique<Cholmod>()), m(m), order(groups.size()) {
+SparseCholesky::SparseCholesky(std::vector<int> groups, int m)
+    : cholmod(std::make_unique<Cholmod>()), groups(std::move(groups)), m(m) {
+  const auto trailing = this->groups.end() - m;
+  const bool has_leading = trailing != this->groups.begin();
+  const int last_group = has_leading ? 1 + *std::max_element(this->groups.begin(), trailing) : 0;
+  std::fill(trailing, this->groups.end(), last_group);
+}
+
+bool SparseCholesky::set_matrix(const LowerTriplets& triplets) {
   cholmod_common& common = cholmod->common;
   cholmod_sparse* const matrix = cholmod->sum_up(triplets, groups.size());
-  std::vector<int> member = groups;
-  const bool has_leading = groups.size() > static_cast<std::size_t>(m);
-  const int last_group = has_leading ? 1 + *std::max_element(groups.begin(), groups.end() - m) : 0;
-  std::fill(member.end() - m, member.end(), last_group);
-  cholmod_camd(matrix, nullptr, 0, member.data(), order.data(), &common);
+  if (!order.empty() && cholmod->replace(matrix, order))
+    return false;
+  order.resize(groups.size());
+  cholmod_camd(matrix, nullptr, 0, groups.data(), order.data(), &common);
   cholmod->check("ordering");
   std::iota(order.end() - m, order.end(), order.size() - m);
-  cholmod->permute(matrix, order);
+  cholmod->set(matrix, order);
+  cholmod_free_factor(&cholmod->factor, &common);
   cholmod->factor = cholmod_analyze(cholmod->matrix, &common);
   cholmod->check("analysis");
+  return true;
 }
 
 SparseCholesky::~SparseCholesky() = default;

@@ -9,12 +9,15 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iomanip>
 #include <map>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <tuple>
+#include <utility>
 
 namespace rollwave {
 
@@ -88,6 +91,69 @@ private:
       references;
 };
 
+/// Runs that have this in common can share a mesh.
+auto mesh_key(const Parameters& parameters) {
+  const auto& mesh = parameters.mesh;
+  return std::tuple(parameters.cylinder.inner_radius, parameters.cylinder.outer_radius,
+                    parameters.road.contact_zone, mesh.degree, mesh.radial_cells,
+                    mesh.angular_cells, mesh.global_refinements, mesh.adaptive_cycles,
+                    mesh.wanted_relative_error, mesh.indicator, mesh.marking, mesh.marked_fraction,
+                    mesh.most_unknowns, parameters.solver.kind);
+}
+
+using MeshKey = decltype(mesh_key(Parameters()));
+
+bool is_adaptive(const Parameters& parameters) {
+  return parameters.mesh.wanted_relative_error > 0 ||
+         parameters.mesh.adaptive_cycles.value_or(0) > 0;
+}
+
+/// The scenes of a study one after the other, each on the mesh of the one before where that is
+/// possible.
+class Sweep {
+public:
+  /// Announces a run. Where the zone of contact is left to the program, the runs that share a mesh
+  /// share the widest zone, in which the roads of the others cannot be touched either.
+  void announce(const Scene& scene, const Parameters& parameters) {
+    if (is_adaptive(parameters) && !parameters.study.continue_meshes)
+      return;
+    const auto [entry, is_new] =
+        shared.try_emplace(mesh_key(parameters), Shared{scene.zone_begin, scene.zone_end, 0});
+    Shared& with = entry->second;
+    with.zone_begin = std::min(with.zone_begin, scene.zone_begin);
+    with.zone_end = std::max(with.zone_end, scene.zone_end);
+    ++with.n_runs;
+  }
+
+  Solution& solve(Scene scene, const Parameters& parameters) {
+    const MeshKey key = mesh_key(parameters);
+    Solution previous;
+    if (last_key == key)
+      previous = std::move(solution);
+    solution = {};
+    last_key.reset(); // a run that fails leaves nothing
+    const auto entry = shared.find(key);
+    if (entry == shared.end() || entry->second.n_runs == 1)
+      return solution = simulate(scene, parameters);
+    scene.zone_begin = entry->second.zone_begin;
+    scene.zone_end = entry->second.zone_end;
+    solution = simulate_next(scene, parameters, std::move(previous));
+    last_key = key;
+    return solution;
+  }
+
+private:
+  struct Shared {
+    double zone_begin;
+    double zone_end;
+    unsigned int n_runs;
+  };
+
+  std::map<MeshKey, Shared> shared;
+  std::optional<MeshKey> last_key;
+  Solution solution;
+};
+
 /// The runs that an earlier call has finished; otherwise makes the directory that of
 /// this study.
 std::vector<StudyRun> finished_runs(const Parameters& parameters,
@@ -113,8 +179,11 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
     throw BadInput(refusal(parameters.settings, "Study", "Published steps",
                            "there are " + std::to_string(published.size()) + " entries for " +
                                std::to_string(varied.size()) + " runs"));
-  for (const auto& settings : varied)
-    make_scene(run_parameters(parameters, settings));
+  Sweep sweep;
+  for (const auto& settings : varied) {
+    const Parameters own = run_parameters(parameters, settings);
+    sweep.announce(make_scene(own), own);
+  }
 
   const auto finished = finished_runs(parameters, directory);
   std::vector<StudyRun> runs;
@@ -138,15 +207,15 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
     try {
       const Parameters own = run_parameters(parameters, settings);
       const Scene scene = make_scene(own);
-      Solution solution = simulate(scene, own);
+      Solution& solution = sweep.solve(scene, own);
+      Result& result = solution.result;
       if (parameters.study.true_errors) {
         const Reference& reference = references.find(scene, own);
-        solution.result.errors =
-            measure_true_errors(*solution.space, solution.displacement, solution.result,
-                                solution.certificate, reference);
+        result.errors = measure_true_errors(*solution.space, solution.displacement, result,
+                                            solution.certificate, reference);
         run.reference = reference.name;
       }
-      run.figures = figures_of(solution.result);
+      run.figures = figures_of(result);
     } catch (const NotSolved& failure) {
       progress << "  not solved: " << failure.what() << std::endl;
     }

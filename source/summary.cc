@@ -89,6 +89,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   const Work& work = result.work;
   json["work"] = {{"load_assemblies", work.load_assemblies},
                   {"stiffness_assemblies", work.stiffness_assemblies},
+                  {"orderings", work.orderings},
                   {"factorisations", work.factorisations},
                   {"dense_factorisations", work.dense_factorisations},
                   {"forward_substitutions", work.forward_substitutions},

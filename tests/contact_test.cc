@@ -27,6 +27,7 @@ public:
   DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
       : stiffness(stiffness), load(load) {}
 
+  void turn_to(const Scene&, const std::optional<FieldVector>&, Work&) override {}
   double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
     const unsigned int n = load.size();
     FullMatrix<double> matrix(n, n);
@@ -86,7 +87,9 @@ struct FullCircle {
       : parameters(parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=16",
                                   "Mesh/Angular cells=12"})),
         scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
-        solver(ring.space, scene, {}, work), problem(make_contact_problem(ring.space, scene)) {}
+        solver(ring.space, scene), problem(make_contact_problem(ring.space, scene)) {
+    solver.turn_to(scene, {}, work);
+  }
 
   Parameters parameters;
   Scene scene;
@@ -124,7 +127,9 @@ struct Prepared {
   explicit Prepared(const Parameters& parameters)
       : scene(make_scene(parameters)), ring(scene, parameters),
         load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
-        solver(ring.space, scene, load, work), problem(make_contact_problem(ring.space, scene)) {}
+        solver(ring.space, scene), problem(make_contact_problem(ring.space, scene)) {
+    solver.turn_to(scene, load, work);
+  }
 
   Scene scene;
   Discretisation ring;

@@ -43,7 +43,8 @@ struct RandomMatrix {
 TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
   const int n = 60, m = 13;
   const RandomMatrix matrix(n);
-  SparseCholesky cholesky(std::vector<int>(n, 0), m, matrix.triplets);
+  SparseCholesky cholesky(std::vector<int>(n, 0), m);
+  EXPECT_TRUE(cholesky.set_matrix(matrix.triplets));
   cholesky.factorise();
   const FullMatrix<double> factor = cholesky.trailing_factor();
   FullMatrix<double> schur(m, m);
@@ -65,14 +66,32 @@ TEST(SparseCholesky, SolvesAndMultiplies) {
   const int n = 60;
   const RandomMatrix matrix(n);
   for (const int m : {0, 1, 20, n}) {
-    SparseCholesky cholesky(std::vector<int>(n, 0), m, matrix.triplets);
-    cholesky.factorise();
-    std::vector<double> x(n);
+    // Unknowns in groups, and other values in the same pattern
+    std::vector<int> groups(n);
     for (int i = 0; i < n; ++i)
-      x[i] = std::sin(i);
-    const std::vector<double> solved = cholesky.backward(cholesky.forward(cholesky.multiply(x)));
-    for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(solved[i], x[i], 1e-13);
+      groups[i] = i % 3;
+    SparseCholesky cholesky(groups, m);
+    LowerTriplets triplets = matrix.triplets;
+    for (const bool is_first : {true, false}) {
+      EXPECT_EQ(cholesky.set_matrix(triplets), is_first);
+      cholesky.factorise();
+      std::vector<double> x(n);
+      for (int i = 0; i < n; ++i)
+        x[i] = std::sin(i);
+      const std::vector<double> product = cholesky.multiply(x);
+      const std::vector<double> solved = cholesky.backward(cholesky.forward(product));
+      for (int i = 0; i < n; ++i) {
+        EXPECT_NEAR(solved[i], x[i], 1e-13);
+        double sum = 0;
+        for (int j = 0; j < n; ++j)
+          sum += matrix.full(i, j) * x[j];
+        EXPECT_NEAR(product[i], is_first ? sum : 2 * sum, 1e-12 * n);
+      }
+      for (double& entry : triplets.values)
+        entry *= 2;
+    }
+    triplets.add(n - 1, 0, 0.1);
+    EXPECT_TRUE(cholesky.set_matrix(triplets));
   }
 }
 
@@ -81,7 +100,8 @@ TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
   triplets.add(0, 0, 1);
   triplets.add(1, 0, 2);
   triplets.add(1, 1, 1);
-  SparseCholesky cholesky({0, 0}, 1, triplets);
+  SparseCholesky cholesky({0, 0}, 1);
+  cholesky.set_matrix(triplets);
   EXPECT_THROW(cholesky.factorise(), NotSolved);
 }
 
@@ -92,7 +112,9 @@ protected:
             parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=2",
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
-        load(assemble_load(ring.space, scene)), solver(ring.space, scene, load, work) {}
+        load(assemble_load(ring.space, scene)), solver(ring.space, scene) {
+    solver.turn_to(scene, load, work);
+  }
 
   const Parameters parameters;
   const Scene scene;

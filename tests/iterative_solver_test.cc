@@ -25,12 +25,13 @@ namespace {
 struct Answer {
   Answer(const Scene& scene, const Parameters& parameters, const RingSpace& space,
          const std::string& kind)
-      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {},
+      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {}, system,
                               result.work)) {
-    measure(scene, space, on_mesh, result);
+    measure(scene, space, system, on_mesh, result);
   }
 
   Result result = {};
+  MeshSystem system;
   MeshSolution on_mesh;
 };
 
@@ -119,8 +120,11 @@ protected:
                                   "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
-        space(*adaptive.space), load(assemble_load(space, scene)),
-        direct(space, scene, load, direct_work), iterative(space, scene, load, iterative_work) {}
+        space(*adaptive.space), load(assemble_load(space, scene)), direct(space, scene),
+        iterative(space) {
+    direct.turn_to(scene, load, direct_work);
+    iterative.turn_to(scene, load, iterative_work);
+  }
 
   /// Random displacements on the pinned nodes, random forces on the others.
   ContactState random_state(const std::vector<bool>& pinned) {
@@ -193,7 +197,8 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
   EXPECT_EQ(iterative_work.preconditioners, 1u);
 
   Work work;
-  IterativeSolver fresh(space, scene, load, work);
+  IterativeSolver fresh(space);
+  fresh.turn_to(scene, load, work);
   fresh.solve(pinned, state, 1e-11);
   EXPECT_LE(both, work.linear_iterations + 2);
 }
@@ -201,7 +206,8 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
 TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
   Work work;
   const std::optional<FieldVector> no_load;
-  IterativeSolver solver(space, scene, no_load, work);
+  IterativeSolver solver(space);
+  solver.turn_to(scene, no_load, work);
   const unsigned int m = space.contact_nodes().size();
   ContactState state = random_state(std::vector<bool>(m, true));
   solver.solve(std::vector<bool>(m, true), state, 1e-11);

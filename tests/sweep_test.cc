@@ -1,0 +1,128 @@
+// Scenes on the mesh of the one before: the same answers, and no work twice.
+#include "simulation.h"
+#include "study.h"
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+using namespace rollwave;
+
+namespace {
+
+const std::vector<std::string> small_mesh = {"Cylinder/Angular velocity=0.5", "Mesh/Radial cells=4",
+                                             "Mesh/Angular cells=60"};
+
+void expect_same_answer(const Result& result, const Result& single) {
+  EXPECT_NEAR(result.patch.force, single.patch.force, 1e-12 * single.patch.force);
+  EXPECT_NEAR(result.energy.value, single.energy.value, 1e-12 * std::abs(single.energy.value));
+  EXPECT_NEAR(result.patch.half_width(), single.patch.half_width(), 1e-10);
+  EXPECT_NEAR(result.certified->lower_bound, single.certified->lower_bound,
+              1e-12 * std::abs(single.energy.value));
+  EXPECT_EQ(result.history.size(), single.history.size());
+}
+
+class Sweep : public testing::TestWithParam<std::string> {
+protected:
+  Parameters parameters_with(std::vector<std::string> assignments) const {
+    assignments.insert(assignments.begin(), small_mesh.begin(), small_mesh.end());
+    assignments.push_back("Solver/Kind=" + GetParam());
+    return parameters_of(assignments);
+  }
+
+  Result next(const std::vector<std::string>& assignments) {
+    const Parameters parameters = parameters_with(assignments);
+    const Scene scene = make_scene(parameters);
+    solution = simulate_next(scene, parameters, std::move(solution));
+    // A zone that is left to the program depends on the distance.
+    const Result single = simulate(scene, parameters).result;
+    expect_same_answer(solution.result, single);
+    return solution.result;
+  }
+
+  Solution solution;
+};
+
+TEST_P(Sweep, DoesNothingTwice) {
+  const std::string zone = "Road/Contact zone=3.9, 5.5";
+  const bool is_direct = GetParam() == "direct";
+  const Work first = next({zone}).work;
+  EXPECT_EQ(first.stiffness_assemblies, 1u);
+  EXPECT_EQ(first.orderings, is_direct ? 2u : 1u); // for K and for the certificate
+  EXPECT_EQ(first.factorisations, is_direct ? 2u : 1u);
+
+  const Work distance = next({zone, "Road/Distance=0.85"}).work;
+  EXPECT_EQ(distance.stiffness_assemblies, 0u);
+  EXPECT_EQ(distance.orderings, 0u);
+  EXPECT_EQ(distance.factorisations, 0u);
+
+  const Work speed = next({zone, "Road/Distance=0.85", "Cylinder/Angular velocity=1"}).work;
+  EXPECT_EQ(speed.stiffness_assemblies, 1u);
+  EXPECT_EQ(speed.orderings, 0u);
+  EXPECT_EQ(speed.factorisations, is_direct ? 2u : 1u);
+
+  const Work force = next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1"}).work;
+  EXPECT_EQ(force.load_assemblies, 1u);
+  EXPECT_EQ(force.factorisations, 0u);
+  const Work same_force =
+      next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1", "Road/Distance=0.9"})
+          .work;
+  EXPECT_EQ(same_force.load_assemblies, 0u);
+  next({zone, "Cylinder/Angular velocity=1"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Sweep, testing::Values("direct", "iterative"),
+                         [](const auto& info) { return info.param; });
+
+TEST(SweepStudy, SharesTheWidestZone) {
+  std::vector<std::string> assignments = small_mesh;
+  assignments.push_back("Study/Vary=Cylinder/Angular velocity = 0.5 | 0.9; Road/Distance = 0.9 | "
+                        "0.8 | 0.85; Mesh/Degree = 1 | 2");
+  const auto directory = std::filesystem::path(testing::TempDir()) / "rollwave_sweep";
+  std::filesystem::remove_all(directory);
+  std::filesystem::create_directories(directory);
+  std::ostringstream progress;
+  const auto runs = run_study(parameters_of(assignments), directory, progress);
+  std::filesystem::remove_all(directory);
+  ASSERT_EQ(runs.size(), 12u);
+  for (const StudyRun& run : runs) {
+    std::vector<std::string> own = small_mesh;
+    for (const Setting& setting : run.settings)
+      own.push_back(setting.path() + "=" + setting.value);
+    const Parameters parameters = parameters_of(own);
+    const Result single = simulate(make_scene(parameters), parameters).result;
+    const double force = *run.figure("force"), energy = *run.figure("energy");
+    EXPECT_NEAR(force, single.patch.force, 1e-12 * force);
+    EXPECT_NEAR(energy, single.energy.value, 1e-12 * energy);
+    EXPECT_EQ(*run.figure("contact_steps"), single.history.size());
+  }
+}
+
+TEST(SweepStudy, ContinuesAndCoarsensAdaptiveMeshes) {
+  Solution solution;
+  for (const char* distance : {"0.75", "0.8", "0.85", "0.9", "0.95"}) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Degree=2",
+                       "Mesh/Wanted relative error=0.002", "Road/Contact zone=3.5, 5.9",
+                       std::string("Road/Distance=") + distance});
+    const Scene scene = make_scene(parameters);
+    const std::size_t cells_before =
+        solution.result.cycles.empty() ? 0 : solution.result.cycles.back().cells;
+    solution = simulate_next(scene, parameters, std::move(solution));
+    const Result& result = solution.result;
+    EXPECT_LE(result.certified->relative, 0.002);
+    EXPECT_LT(result.residuals.equilibrium, 1e-11);
+    const std::size_t from_scratch = simulate(scene, parameters).result.cycles.size();
+    if (cells_before == 0) {
+      EXPECT_EQ(result.cycles.size(), from_scratch);
+    } else {
+      EXPECT_EQ(result.cycles.front().cells, cells_before);
+      ASSERT_LT(result.cycles.size(), from_scratch);
+      EXPECT_LT(result.cycles[1].cells, cells_before);
+    }
+  }
+}
+
+} // namespace
