@@ -58,8 +58,9 @@ test)
   ;;
 benchmark)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
-  build ON rollwave_benchmark
-  exec build/tests/rollwave_benchmark
+  build ON all
+  build/tests/rollwave_benchmark
+  exec build/tests/rollwave_phases
   ;;
 *)
   usage >&2

@@ -41,14 +41,14 @@ public:
   SparseCholesky(std::vector<int> groups, int m);
   ~SparseCholesky();
 
-  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, orders and
-  /// analyses it. @return whether it did. @throws NotSolved when memory is short.
+  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, analyses it,
+  /// after ordering the first one. @return whether it did. @throws NotSolved when memory is short.
   bool set_matrix(const LowerTriplets& triplets);
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
   void factorise();
 
-  std::size_t size() const { return groups.size(); }
+  std::size_t size() const { return n; }
 
   /// K x
   std::vector<double> multiply(const std::vector<double>& x) const;
@@ -71,9 +71,10 @@ private:
   std::vector<double> from_order(const std::vector<double>& x) const;
 
   std::unique_ptr<Cholmod> cholmod;
-  std::vector<int> groups;
+  std::size_t n;
   int m;
-  std::vector<int> order; ///< which unknown is eliminated as the k-th; empty without a matrix
+  std::vector<int> groups; ///< until the first matrix is ordered
+  std::vector<int> order;  ///< which unknown is eliminated as the k-th; empty without a matrix
 };
 
 } // namespace rollwave

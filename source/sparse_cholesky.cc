@@ -75,30 +75,23 @@ struct SparseCholesky::Cholmod {
     return sum;
   }
 
-  /// Makes the lower triangle of P K P^T the matrix, and frees @p upper.
-  void set(cholmod_sparse* upper, std::vector<int>& order) {
-    cholmod_free_sparse(&matrix, &common);
-    matrix = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
+  /// Makes the lower triangle of P K P^T the matrix, and frees @p upper. Returns whether the
+  /// pattern stays as it was.
+  bool set(cholmod_sparse* upper, std::vector<int>& order) {
+    cholmod_sparse* next = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
     cholmod_free_sparse(&upper, &common);
     check("assembly");
-  }
-
-  /// Does the same if the pattern stays as it is; otherwise returns false and keeps @p upper.
-  bool replace(cholmod_sparse* upper, std::vector<int>& order) {
-    cholmod_sparse* next = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
-    check("assembly");
-    const auto* const columns = static_cast<const int*>(matrix->p);
-    const auto* const next_columns = static_cast<const int*>(next->p);
-    const auto* const rows = static_cast<const int*>(matrix->i);
-    const bool is_same =
-        std::equal(columns, columns + matrix->ncol + 1, next_columns) &&
-        std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(next->i));
-    if (is_same) {
-      std::swap(matrix, next);
-      cholmod_free_sparse(&upper, &common);
-    }
+    std::swap(matrix, next);
+    const bool is_same = next != nullptr && has_pattern_of(*next);
     cholmod_free_sparse(&next, &common);
     return is_same;
+  }
+
+  bool has_pattern_of(const cholmod_sparse& other) const {
+    const auto* const columns = static_cast<const int*>(matrix->p);
+    const auto* const rows = static_cast<const int*>(matrix->i);
+    return std::equal(columns, columns + matrix->ncol + 1, static_cast<const int*>(other.p)) &&
+           std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(other.i));
   }
 
   /// Solves with one of the systems L, Lt, P, Pt.
@@ -124,7 +117,7 @@ struct SparseCholesky::Cholmod {
 };
 
 SparseCholesky::SparseCholesky(std::vector<int> groups, int m)
-    : cholmod(std::make_unique<Cholmod>()), groups(std::move(groups)), m(m) {
+    : cholmod(std::make_unique<Cholmod>()), n(groups.size()), m(m), groups(std::move(groups)) {
   const auto trailing = this->groups.end() - m;
   const bool has_leading = trailing != this->groups.begin();
   const int last_group = has_leading ? 1 + *std::max_element(this->groups.begin(), trailing) : 0;
@@ -133,14 +126,16 @@ SparseCholesky::SparseCholesky(std::vector<int> groups, int m)
 
 bool SparseCholesky::set_matrix(const LowerTriplets& triplets) {
   cholmod_common& common = cholmod->common;
-  cholmod_sparse* const matrix = cholmod->sum_up(triplets, groups.size());
-  if (!order.empty() && cholmod->replace(matrix, order))
+  cholmod_sparse* const matrix = cholmod->sum_up(triplets, n);
+  if (order.empty()) {
+    order.resize(n);
+    cholmod_camd(matrix, nullptr, 0, groups.data(), order.data(), &common);
+    cholmod->check("ordering");
+    std::iota(order.end() - m, order.end(), n - m);
+    groups = {};
+  }
+  if (cholmod->set(matrix, order))
     return false;
-  order.resize(groups.size());
-  cholmod_camd(matrix, nullptr, 0, groups.data(), order.data(), &common);
-  cholmod->check("ordering");
-  std::iota(order.end() - m, order.end(), order.size() - m);
-  cholmod->set(matrix, order);
   cholmod_free_factor(&cholmod->factor, &common);
   cholmod->factor = cholmod_analyze(cholmod->matrix, &common);
   cholmod->check("analysis");
@@ -216,7 +211,7 @@ dealii::FullMatrix<double> SparseCholesky::trailing_factor() const {
   const int* const value_starts = static_cast<const int*>(factor.px);
   const int* const rows = static_cast<const int*>(factor.s);
   const double* const values = static_cast<const double*>(factor.x);
-  const int first = static_cast<int>(order.size()) - m;
+  const int first = static_cast<int>(n) - m;
 
   dealii::FullMatrix<double> trailing(m, m);
   for (std::size_t s = 0; s < factor.nsuper; ++s) {
