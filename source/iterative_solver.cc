@@ -117,6 +117,8 @@ const TrilinosWrappers::PreconditionAMG& IterativeSolver::multigrid() {
     TrilinosWrappers::PreconditionAMG::AdditionalData settings;
     settings.higher_order_elements = space.dof_handler().get_fe().degree > 1;
     settings.aggregation_threshold = threshold;
+    // The hierarchy before and the assembly leave free memory in pieces.
+    release_freed_memory();
     preconditioner.emplace();
     preconditioner->initialize(matrix, settings);
     ++work->preconditioners;
