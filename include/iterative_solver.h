@@ -70,7 +70,7 @@ private:
   /// The rows of K that belong to the contact nodes, in full.
   std::vector<std::vector<std::pair<dealii::types::global_dof_index, double>>> contact_rows;
 
-  double threshold; ///< of strong couplings, for the multigrid
+  double threshold = 0; ///< of strong couplings, for the multigrid
   std::optional<dealii::TrilinosWrappers::PreconditionAMG> preconditioner; ///< of the matrix
   FieldVector field; ///< u of the last solve, zero where a constraint holds
 };
