@@ -44,10 +44,17 @@ private:
   /// f_i - (K u)_i at a contact node.
   double reaction(unsigned int node, const FieldVector& u) const;
 
-  /// Improves @p u until |rhs - matrix u|_2 <= accuracy scale(u); returns the ratio reached.
-  double conjugate_gradients(FieldVector& u, const FieldVector& rhs,
-                             const std::function<double(const FieldVector&)>& scale,
-                             double accuracy);
+  /// The force that residuals are compared with: max(|f|_2, |N|_2) of a field.
+  using Scale = std::function<double(const FieldVector& u)>;
+
+  /// |rhs - matrix u|_2 / scale(u)
+  double relative_residual(const FieldVector& u, const FieldVector& rhs, const Scale& scale) const;
+
+  /// Lowers the relative residual of @p u to @p accuracy, or to round-off; returns what is reached.
+  double improve(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy);
+  void conjugate_gradients(FieldVector& u, const FieldVector& rhs, const Scale& scale,
+                           double accuracy);
+  const dealii::TrilinosWrappers::PreconditionAMG& multigrid();
 
   const RingSpace& space;
   const std::optional<FieldVector>* load = nullptr;
@@ -63,6 +70,7 @@ private:
   /// The rows of K that belong to the contact nodes, in full.
   std::vector<std::vector<std::pair<dealii::types::global_dof_index, double>>> contact_rows;
 
+  double threshold = 0; ///< of strong couplings, for the multigrid
   std::optional<dealii::TrilinosWrappers::PreconditionAMG> preconditioner; ///< of the matrix
   FieldVector field; ///< u of the last solve, zero where a constraint holds
 };

@@ -87,7 +87,8 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
     std::vector<bool> next;
     solution.history.push_back(judge(problem, solution, residual, next));
     ContactStep& step = solution.history.back();
-    if (step.changed == 0 && residual > final_accuracy) {
+    const bool is_loose = accuracy > final_accuracy && residual > final_accuracy;
+    if (step.changed == 0 && is_loose) {
       accuracy = final_accuracy;
       residual = solver.solve(solution.active, solution.state, accuracy);
       step = judge(problem, solution, residual, next);
@@ -100,7 +101,7 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
                       " nodes still change; raise Contact/Most steps");
 
     if (change != Change::one_by_one && !visited.insert(solution.active).second) {
-      if (residual > final_accuracy) {
+      if (is_loose) {
         // The signs of a loose solve have led here; those of an accurate one may lead on.
         accuracy = final_accuracy;
         visited.clear();
