@@ -5,6 +5,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
+#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,12 @@ void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, do
   const unsigned int degree = handler.get_fe().degree;
   EdgeTies ties(degree, shapes, constraints);
   std::vector<Edge> seam_begin, seam_end;
-  for (const auto& cell : handler.active_cell_iterators())
+  // Where all cells are of one level no node hangs, and only the seam is left to tie.
+  const auto& mesh = handler.get_triangulation();
+  const bool has_one_level = mesh.n_active_cells() == mesh.n_cells(mesh.n_levels() - 1);
+  for (const auto& cell : handler.active_cell_iterators()) {
+    if (has_one_level && !cell->at_boundary())
+      continue;
     for (const unsigned int f : cell->face_indices()) {
       const auto face = cell->face(f);
       if (face->has_children())
@@ -127,6 +133,7 @@ void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, do
       else if (face->at_boundary() && face->boundary_id() == seam_end_id)
         seam_end.push_back(edge_of(face, degree));
     }
+  }
   ties.tie_seam(std::move(seam_begin), std::move(seam_end), growth);
 }
 

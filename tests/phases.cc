@@ -172,9 +172,37 @@ void benchmark_time_to_error() {
   }
 }
 
+/// Whole processes, in turn with an empty one.
+void benchmark_start() {
+  const std::string scene =
+      ROLLWAVE_EXECUTABLE " " ROLLWAVE_PRM_DIRECTORY "/figure-4.prm --output /tmp/rollwave-start "
+                          "--set 'Mesh/Radial cells=1' "
+                          "--set 'Mesh/Angular cells=6' --set Output/Files=";
+  const std::vector<std::pair<const char*, std::string>> commands = {
+      {"empty", EMPTY_EXECUTABLE},
+      {"summary, contact, parameters", scene + "'summary, contact, parameters'"},
+      {"all files of the default", scene + "'summary, contact, parameters, solution, plot'"}};
+  std::vector<std::vector<double>> seconds(commands.size());
+  for (int run = 0; run < 15; ++run)
+    for (unsigned int i = 0; i < commands.size(); ++i) {
+      const dealii::Timer timer;
+      if (std::system((commands[i].second + " > /dev/null").c_str()) != 0)
+        std::abort();
+      seconds[i].push_back(timer.wall_time());
+    }
+  std::printf("\nThe smallest scene as a whole process, medians of 15 runs\n\n| files | seconds | "
+              "over an empty program |\n|---|---|---|\n");
+  for (unsigned int i = 0; i < commands.size(); ++i) {
+    std::sort(seconds[i].begin(), seconds[i].end());
+    std::printf("| %s | %.3f | %.2f |\n", commands[i].first, seconds[i][7],
+                seconds[i][7] / seconds[0][7]);
+  }
+}
+
 } // namespace
 
 int main() {
+  benchmark_start();
   benchmark_phases();
   benchmark_time_to_error();
 }

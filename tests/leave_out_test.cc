@@ -1,0 +1,81 @@
+// A scene pays only for what it needs: the ledger of its work.
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+using namespace rollwave;
+
+namespace {
+
+Work work_of(std::vector<std::string> assignments) {
+  assignments.insert(assignments.begin(), {"Mesh/Radial cells=4", "Mesh/Angular cells=60"});
+  const Parameters parameters = parameters_of(assignments);
+  return simulate(make_scene(parameters), parameters).result.work;
+}
+
+bool has_phase(const Work& work, const std::string& name) {
+  for (const auto& [phase, seconds] : work.seconds())
+    if (phase == name)
+      return true;
+  return false;
+}
+
+TEST(LeaveOut, NoLoadWithoutForce) {
+  const std::string no_certificate = "Certificate/Error bound=false";
+  const Work without = work_of({no_certificate});
+  EXPECT_EQ(without.load_assemblies, 0u);
+  EXPECT_EQ(without.forward_substitutions, 0u);
+  EXPECT_EQ(without.back_substitutions, 1u);
+  const Work with_force = work_of({no_certificate, "Cylinder/Radial force=1"});
+  EXPECT_EQ(with_force.load_assemblies, 1u);
+  EXPECT_EQ(with_force.forward_substitutions, 1u);
+  EXPECT_EQ(with_force.back_substitutions, 1u);
+}
+
+TEST(LeaveOut, OneFactorisationForEachMeshHoweverManyContactSteps) {
+  for (const char* method : {"Contact/Method=active set", "Contact/Method=uzawa"}) {
+    const Work work = work_of({"Certificate/Error bound=false", method});
+    EXPECT_EQ(work.stiffness_assemblies, 1u);
+    EXPECT_EQ(work.orderings, 1u);
+    EXPECT_EQ(work.factorisations, 1u);
+    EXPECT_EQ(work.back_substitutions, 1u);
+    EXPECT_EQ(work.linear_iterations, 0u);
+  }
+}
+
+TEST(LeaveOut, NoContactLoopWhenTheFreeSolutionIsFeasible) {
+  const Parameters parameters = parameters_of({"Road/Distance=1.2", "Cylinder/Radial force=-1"});
+  const Result result = simulate(make_scene(parameters), parameters).result;
+  EXPECT_EQ(result.history.size(), 1u);
+  EXPECT_EQ(result.work.dense_factorisations, 0u);
+}
+
+TEST(LeaveOut, NoDenseFactorisationWhereContactIsOneStretch) {
+  // The nodes that come last in the factor are the pinned ones.
+  const Work work = work_of({"Road/Distance=0.8"});
+  EXPECT_EQ(work.dense_factorisations, 0u);
+}
+
+TEST(LeaveOut, CertificateAndIndicatorAreForThoseWhoAsk) {
+  const Work plain = work_of({"Certificate/Error bound=false"});
+  EXPECT_FALSE(has_phase(plain, "certificate"));
+  EXPECT_FALSE(has_phase(plain, "indicator"));
+  EXPECT_FALSE(has_phase(plain, "preconditioner"));
+
+  const Work certified = work_of({});
+  EXPECT_TRUE(has_phase(certified, "certificate"));
+  EXPECT_EQ(certified.factorisations, 2u);
+  EXPECT_FALSE(has_phase(certified, "indicator"));
+
+  // Steered by residuals, only the last of four meshes is certified.
+  const Work last = work_of({"Mesh/Adaptive cycles=3", "Mesh/Indicator=residual"});
+  EXPECT_EQ(last.stiffness_assemblies, 4u);
+  EXPECT_EQ(last.factorisations, 5u);
+
+  // Two more road distances cost no factorisation.
+  const Work bounded = work_of({"Certificate/Load bounds=true"});
+  EXPECT_EQ(bounded.factorisations, 2u);
+  EXPECT_EQ(bounded.stiffness_assemblies, 1u);
+}
+
+} // namespace
