@@ -168,11 +168,12 @@ void IterativeSolver::conjugate_gradients(FieldVector& u, const FieldVector& rhs
     solver.solve(matrix, u, rhs, multigrid());
   } catch (const SolverControl::NoConvergence&) {
     std::ostringstream message;
-    message << "conjugate gradients have reached the relative residual "
-            << relative_residual(u, rhs, scale) << " in " << control.last_step()
-            << " steps, wanted " << accuracy
-            << "; set Solver/Kind to direct, or change Mesh/Radial cells or Mesh/Angular cells to "
-               "cells that are less stretched";
+    message
+        << "conjugate gradients have reached the relative residual "
+        << relative_residual(u, rhs, scale) << " in " << control.last_step() << " steps, wanted "
+        << accuracy
+        << "; change Mesh/Radial cells or Mesh/Angular cells to cells that are less stretched, or, "
+           "where memory suffices, set Solver/Kind to direct";
     throw NotSolved(message.str());
   }
   work->linear_iterations += control.last_step();
