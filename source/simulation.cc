@@ -64,6 +64,7 @@ bool refine(const std::vector<double>& indicators, const Parameters& parameters,
     return false;
   solution.certificate.reset();
   solution.system = {};
+  solution.space.reset();
   solution.result.certified.reset();
   return true;
 }
@@ -105,7 +106,6 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
     Result& result = solution.result;
     if (cycle > 0 || !continues) {
       const Work::Phase phase(result.work, "space");
-      solution.system = {};
       solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
     }
     const bool is_last = cycle == most_cycles;
