@@ -17,6 +17,7 @@ namespace rollwave {
 struct ContactProblem {
   dealii::Vector<double> road;   ///< phi_i, a length
   dealii::Vector<double> weight; ///< the nodes' areas, see SurfaceNode
+  double unit = 1;               ///< of length, Scene::unit
 
   unsigned int size() const { return road.size(); }
 };

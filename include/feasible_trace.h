@@ -66,6 +66,7 @@ private:
   double discrete(const Edge& edge, double t) const;
   double discrete_slope(const Edge& edge, double t) const;
   double excess(const Edge& edge, double t) const;
+  double excess_slope(const Edge& edge, double t) const; ///< d/dz
   void find_pieces(Edge& edge, double zone_begin, double zone_end) const;
 
   std::function<double(double)> road;

@@ -13,6 +13,7 @@ struct MeshSolution {
   ContactSolution contact;
   FieldVector displacement;      ///< u_h
   FieldVector stiffness_times_u; ///< K u_h
+  double round_off;              ///< |K du|_2, du what rounding u_h may change
 };
 
 /// Solves @p scene on @p space by the methods of @p parameters, beginning with the contact

@@ -70,7 +70,7 @@ struct Parameters {
 
   struct {
     double distance = 0.8;
-    std::optional<std::pair<double, double>> contact_zone; ///< nullopt: where phi < b
+    std::optional<std::pair<double, double>> contact_zone; ///< nullopt: automatic
   } road;
 
   struct {
@@ -103,7 +103,15 @@ struct Parameters {
     SolverKind kind = SolverKind::automatic;
   } solver;
 
+  /// A scene of a study by its name, with the settings that make it.
+  struct NamedScene {
+    std::string name;
+    std::vector<Setting> settings;
+  };
+
   struct {
+    std::vector<NamedScene> scenes; ///< none: the scene of the file
+
     /// One list of settings for each varied key; the study runs every combination.
     std::vector<std::vector<Setting>> vary;
     std::vector<std::optional<unsigned int>> published_steps;

@@ -32,6 +32,9 @@ public:
   /// by a factor 1 + O((a/b)^(2k)).
   double compliance_without_hub(double k) const;
 
+  /// From this k on both agree to round-off.
+  double hub_free_mode() const { return hub_fades_at; }
+
   /// R_k(r)/R_k(b) and its derivative by r, for every radius.
   struct Profile {
     std::vector<double> value;
@@ -43,11 +46,13 @@ private:
   struct Samples;
   Samples sample(double k) const;
   double computed_compliance(double k) const;
+  bool hub_matters(double k) const;
 
   /// k / sigma_k at the Chebyshev points of the panels [64, 128], [128, 256], ...
   std::vector<std::vector<double>> panels;
 
   double a, b, omega;
+  double hub_fades_at;
 };
 
 } // namespace rollwave

@@ -38,8 +38,8 @@ struct RadialShapes {
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
 class RadialShapesOfMesh {
 public:
-  /// Gauss' rule with @p n_points points on pieces whose ends have the ratio 2 at most.
-  RadialShapesOfMesh(const Scene& scene, unsigned int degree, unsigned int n_points);
+  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
+  RadialShapesOfMesh(const Scene& scene, unsigned int degree);
 
   const RadialShapes& on(double begin, double end);
 
@@ -48,7 +48,6 @@ private:
 
   const Scene& scene;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
-  unsigned int n_points;
   std::map<std::pair<double, double>, RadialShapes> known;
 };
 

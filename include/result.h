@@ -15,8 +15,8 @@ struct MeshFigures {
   unsigned int cells;
   unsigned int dofs; ///< unknowns: hub, seam and hanging nodes are not counted
   unsigned int contact_nodes;
-  double h_min; ///< smallest cell diameter in (r, z)
-  double h_max; ///< largest cell diameter in (r, z)
+  double h_min; ///< smallest cell diameter in (r, b z), a length
+  double h_max; ///< largest cell diameter in (r, b z), a length
 };
 
 struct Energy {
@@ -54,7 +54,17 @@ struct Residuals {
   double penetration;       ///< max (u_i - phi_i)^+ / max |u_i| on contact nodes
   double negative_pressure; ///< max (-lambda_i)^+ / max |lambda_i|
   double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
+
+  /// What equilibrium comes to when u is rounded, of which no solver can do better: |K (d u)|_2
+  /// over the same forces, d being a rounding error of random sign for each unknown.
+  double round_off;
+
+  /// The largest of the four.
+  double largest() const;
 };
+
+/// What the residuals of a solved scene are to be: relative to its data.
+constexpr double wanted_residual = 1e-10;
 
 /// Errors against a Reference.
 struct TrueErrors {
@@ -96,7 +106,7 @@ struct SurfacePoint {
   double displacement;
 };
 
-/// All numbers of one solved scene.
+/// All numbers of one solved scene, lengths in the unit of the scene.
 struct Result {
   MeshFigures mesh;
   ContactPatch patch;
@@ -114,6 +124,10 @@ struct Result {
   std::vector<SurfacePoint> surface;
   Work work;
 };
+
+/// The same with lengths in the user's lengths, of which @p unit is Scene::unit: what is a length
+/// is multiplied by it, energies by its square.
+Result to_lengths(Result result, double unit);
 
 } // namespace rollwave
 

@@ -27,6 +27,10 @@ struct Parameters;
  *
  * The contact pressure is lambda = -u_r(b, z) >= 0. The bilinear form is elliptic for omega < 1/b;
  * at omega = 1/b alpha vanishes on r = b and the problem is degenerate there.
+ *
+ * Lengths are in a unit of the scene's own, a power of two, so that b is near 1 in it however long
+ * the user's lengths are: nothing overflows, and a scene scaled by a power of two has the same
+ * numbers to the last bit. What is computed from a scene is in its unit; to_lengths() leads back.
  */
 struct Scene {
   double inner_radius;     ///< a, a length
@@ -48,11 +52,18 @@ struct Scene {
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
 
+  double unit = 1; ///< the unit of length, in the user's lengths
+
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
 };
 
-/// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle.
+/// x = z - 3 pi/2, the angle from the lowest point, to the accuracy of z: 3 pi/2 is taken in two
+/// parts.
+double from_lowest_point(double z);
+
+/// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle. Near the
+/// lowest point nothing cancels: phi = (c - b) + 2 c sin^2(x/2) / cos x, x = z - 3 pi/2.
 std::function<double(double)> flat_road(double outer_radius, double distance);
 
 /// phi'(z) = c cos z / sin^2 z of the same road.
@@ -60,6 +71,8 @@ std::function<double(double)> flat_road_slope(double distance);
 
 /**
  * The scene that @p parameters describe.
+ *
+ * Its unit of length is the power of two with b in [1, 2).
  *
  * @throws BadInput unless 0 < a < b, 0 <= omega <= 1/b, a < c < 2 b,
  *         pi < z0 < z1 < 2 pi and the force can be parsed and is finite.

@@ -13,8 +13,10 @@ namespace rollwave {
  * zero off the contact zone and not a number inside of the cylinder, where there is none. Elements
  * of degree p become VTK's Lagrange cells with (p + 1)^2 nodes. A failure to write is left in the
  * state of the stream.
+ *
+ * @p unit is what the unit of the scene is to be written as.
  */
-void write_solution_vtu(std::ostream& out, const Solution& solution);
+void write_solution_vtu(std::ostream& out, const Solution& solution, double unit);
 
 } // namespace rollwave
 

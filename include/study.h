@@ -10,8 +10,9 @@
 namespace rollwave {
 
 /**
- * Runs every combination of the values in `Study/Vary`, the last key varying fastest, and tells of
- * each on @p progress. A run that cannot be solved is a row of the study like the others.
+ * Runs every combination of the values in `Study/Vary`, the last key varying fastest, for each of
+ * `Study/Scenes` where there are some, and tells of each on @p progress. A run that cannot be
+ * solved is a row of the study like the others.
  *
  * After each run study.csv is written to @p directory. When the directory holds the rows of the
  * same study, that is beside a parameters.prm with the same text, only the missing runs are made.

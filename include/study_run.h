@@ -14,23 +14,26 @@ namespace rollwave {
 /// One run of a study: the settings in which it differs from the others, and its figures by name,
 /// as in the columns of study.csv. A run that was not solved has none.
 struct StudyRun {
+  std::string scene; ///< its name in Study/Scenes, empty without
   std::vector<Setting> settings;
   std::optional<unsigned int> published_steps;
   std::map<std::string, double> figures;
   std::string reference; ///< what its errors are measured against; empty without errors
+  std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
 
   bool is_solved() const { return !figures.empty(); }
   std::optional<double> figure(const std::string& name) const;
 
-  /// The settings but the one that varies fastest, as text: runs that share it make a curve.
+  /// The scene and the settings but the one that varies fastest, as text: runs that share it make a
+  /// curve.
   std::string curve() const;
 };
 
 /// The figures of a solved scene, and the peak memory of the process so far.
 std::map<std::string, double> figures_of(const Result& result);
 
-/// study.csv: the varied keys, `solved`, `published_steps`, `reference`, then the figures in full
-/// precision.
+/// study.csv: `scene` where there are several, the varied keys, `solved`, `published_steps`,
+/// `reference`, `failure`, then the figures in full precision.
 std::string study_csv(const std::vector<StudyRun>& runs);
 
 /// The runs that study_csv() wrote, without their settings and published steps; none when the file

@@ -8,7 +8,8 @@
 namespace rollwave {
 
 struct UzawaSettings {
-  std::optional<double> rho; ///< step length, pressure over displacement; nullopt: automatic
+  /// Step length, pressure over displacement in the user's lengths; nullopt: automatic.
+  std::optional<double> rho;
   UzawaStop stop;
   double tolerance;
   unsigned int most_steps;

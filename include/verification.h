@@ -13,8 +13,9 @@ namespace rollwave {
 /// zone that cuts the contact short on one side or unevenly. @throws NotSolved as solve_exactly().
 std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Parameters& parameters);
 
-/// Prints our numbers beside the exact ones, with their differences.
-void report_verification(std::ostream& out, const Result& result, const ExactSolution& exact);
+/// Prints our numbers beside the exact ones, with their differences, in the user's lengths.
+void report_verification(std::ostream& out, const Scene& scene, const Result& result,
+                         const ExactSolution& exact);
 
 } // namespace rollwave
 

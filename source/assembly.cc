@@ -1,6 +1,7 @@
 #include "assembly.h"
 
 #include "errors.h"
+#include "radial_rule.h"
 #include "scene.h"
 #include "shape_products.h"
 
@@ -9,6 +10,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace rollwave {
@@ -22,16 +24,18 @@ ShapeProducts radial_products(const Scene& scene,
                               const std::vector<Polynomials::Polynomial<double>>& shapes,
                               double begin, double end) {
   const unsigned int n = shapes.size();
-  const QGauss<1> gauss(n);
+  // Beside a polynomial of degree 2 n there is the factor 1/r: on pieces with the ratio 2 twelve
+  // points more leave nothing but round-off.
+  const RadialRule rule = graded_rule(begin, end, QGauss<1>(n + 12));
   const double height = end - begin;
   ShapeProducts products = {FullMatrix<double>(n), FullMatrix<double>(n)};
   std::vector<std::vector<double>> shape(n, std::vector<double>(2)); // value and derivative
-  for (unsigned int q = 0; q < gauss.size(); ++q) {
-    const double r = begin + height * gauss.point(q)[0];
-    const double radial = r * height * gauss.weight(q); // r dr
-    const double angular = scene.alpha(r) * radial;     // alpha r dr
+  for (unsigned int q = 0; q < rule.r.size(); ++q) {
+    const double r = rule.r[q];
+    const double radial = r * rule.weight[q];       // r dr
+    const double angular = scene.alpha(r) * radial; // alpha r dr
     for (unsigned int i = 0; i < n; ++i)
-      shapes[i].value(gauss.point(q)[0], shape[i]);
+      shapes[i].value((r - begin) / height, shape[i]);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j) {
         products.stiffness(i, j) += radial * (shape[i][1] / height) * (shape[j][1] / height);
@@ -39,6 +43,12 @@ ShapeProducts radial_products(const Scene& scene,
       }
   }
   return products;
+}
+
+std::string not_finite_at(double r, double z) {
+  std::ostringstream text;
+  text << "Cylinder/Radial force is not finite at r = " << r << ", z = " << z;
+  return text.str();
 }
 
 } // namespace
@@ -85,8 +95,7 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
       const double z = std::fmod(point[1], 2 * numbers::PI);
       const double f = scene.force(r, z);
       if (!std::isfinite(f))
-        throw BadInput("Cylinder/Radial force is not finite at r = " + std::to_string(r) +
-                       ", z = " + std::to_string(z));
+        throw BadInput(not_finite_at(r * scene.unit, z));
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
     }

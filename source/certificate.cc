@@ -1,5 +1,6 @@
 #include "certificate.h"
 
+#include "contact_free.h"
 #include "dual_potential.h"
 #include "scene.h"
 #include "work.h"
@@ -219,7 +220,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGauss<1> gauss(degree + 2);
-  RadialShapesOfMesh shapes(scene, degree, gauss.size());
+  RadialShapesOfMesh shapes(scene, degree);
   std::optional<ForceColumns> columns;
   if (scene.force)
     columns.emplace(scene, 4);
@@ -274,9 +275,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     force_error += sums.force_error;
   }
 
-  const double a = scene.inner_radius, b = scene.outer_radius;
-  const double friedrichs =
-      std::sqrt(std::max(0., b * b / 2 * std::log(b / a) - (b - a) * (b + a) / 4));
+  const double friedrichs = std::sqrt(
+      contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius));
   double unresolved = 0;
   if (columns && !columns->are_exact())
     unresolved = std::sqrt(unresolved_force_squared(space, scene, gauss));

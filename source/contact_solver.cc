@@ -11,6 +11,7 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
   ContactProblem problem;
   problem.road.reinit(nodes.size());
   problem.weight.reinit(nodes.size());
+  problem.unit = scene.unit;
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     problem.road(i) = scene.road(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;

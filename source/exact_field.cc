@@ -1,5 +1,7 @@
 #include "exact_field.h"
 
+#include "contact_free.h"
+
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
@@ -30,7 +32,7 @@ ExactField::Value ExactField::operator()(double r, double z) const {
     value.displacement += amplitudes[k] * radial * std::cos(k * x);
     value.radial_derivative += amplitudes[k] * slope * std::cos(k * x);
     value.angular_derivative -= amplitudes[k] * radial * k * std::sin(k * x);
-    if (k * std::log(r / a) > 1 && std::abs(radial) < 1e-18)
+    if (k * log_of_ratio(r, a) > 1 && std::abs(radial) < 1e-18)
       break;
   }
   return value;
@@ -57,7 +59,7 @@ ExactField::cosine_coefficients(const std::vector<double>& radii) const {
         list[0] += amplitudes[0] * profile.value[j];
       else
         list.push_back(amplitudes[k] * profile.value[j]);
-      if (k * std::log(radii[left[j]] / scene.inner_radius) < 1 ||
+      if (k * log_of_ratio(radii[left[j]], scene.inner_radius) < 1 ||
           std::abs(profile.value[j]) > 1e-9)
         next.push_back(left[j]);
     }

@@ -1,5 +1,6 @@
 #include "exact_solution.h"
 
+#include "contact_free.h"
 #include "errors.h"
 #include "radial_modes.h"
 
@@ -23,8 +24,8 @@ namespace rollwave {
 using namespace dealii;
 
 double contact_free_displacement(const ExactScene& scene, double r) {
-  const double a = scene.inner_radius, b = scene.outer_radius;
-  return scene.force_density * (-(r - a) * (r + a) / 4 + b * b / 2 * std::log(r / a));
+  return scene.force_density *
+         contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, r);
 }
 
 namespace {
@@ -53,6 +54,13 @@ GaussRule gauss_gegenbauer(double nu, unsigned int n_points) {
     rule.weights.push_back(total * vectors(0, i) * vectors(0, i));
   }
   return rule;
+}
+
+/// phi at the angle x from the lowest point, as flat_road().
+double road(const ExactScene& scene, double x) {
+  const double sine = std::sin(x / 2);
+  return (scene.road_distance - scene.outer_radius) +
+         2 * scene.road_distance * sine * sine / std::cos(x);
 }
 
 /// A rule for sums over all integers k of even functions: sum_k F(k) = sum_i weight_i F(k_i) +
@@ -158,7 +166,8 @@ private:
   /// A_ij = (w / 2 pi) sum_k c_k g_i(k w) g_j(k w), g_i the transform of the term 2 i.
   FullMatrix<double> interaction(double w) const {
     if (!sum || w < 0.7 * sum_width || w > 1.4 * sum_width) {
-      sum = std::make_unique<ModeSum>(modes, largest_argument() / w, w);
+      sum = std::make_unique<ModeSum>(modes,
+                                      std::max(largest_argument() / w, modes.hub_free_mode()), w);
       sum_width = w;
     }
     const unsigned int n_modes = sum->k.size();
@@ -187,8 +196,7 @@ private:
 
   Vector<double> indentation(double w) const {
     const double free = contact_free_displacement(scene, scene.outer_radius);
-    return moments(
-        w, [&](double x) { return free + scene.outer_radius - scene.road_distance / std::cos(x); });
+    return moments(w, [&](double x) { return free - road(scene, x); });
   }
 
   /// The transforms are summed up to here. Bessel functions have their asymptotic form where the
@@ -203,9 +211,8 @@ private:
 
 /// Where the contact-free surface would meet the road: w is smaller than this angle.
 double crossing_angle(const ExactScene& scene) {
-  const double free_radius =
-      scene.outer_radius + contact_free_displacement(scene, scene.outer_radius);
-  return free_radius > scene.road_distance ? std::acos(scene.road_distance / free_radius) : 0;
+  return rollwave::crossing_angle(scene.outer_radius, scene.road_distance,
+                                  contact_free_displacement(scene, scene.outer_radius));
 }
 
 /// The zero of the defect, which falls from positive to negative: looked for within @p margin of
@@ -244,17 +251,14 @@ ExactSolution describe(const ExactScene& scene, const Collocation& collocation, 
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   solution.force = b * solution.pressure.cosine_integral(0);
-  const Vector<double> road =
-      collocation.moments(w, [&](double x) { return -b + scene.road_distance / std::cos(x); });
+  const Vector<double> road_moments =
+      collocation.moments(w, [&](double x) { return road(scene, x); });
   double pressure_times_road = 0;
   for (unsigned int i = 0; i < collocation.n; ++i)
-    pressure_times_road += b * w * trial.coefficients(i) * road(i);
+    pressure_times_road += b * w * trial.coefficients(i) * road_moments(i);
 
   // (f, u) = a(u_f, u) = (f, u_f) - b int lambda u_f dz
-  const double square = (b - a) * (b + a);
-  const double work_of_f_alone =
-      2 * numbers::PI * f * f *
-      (-square * square / 16 + b * b / 2 * (b * b / 2 * std::log(b / a) - square / 4));
+  const double work_of_f_alone = 2 * numbers::PI * f * f * contact_free_unit_work(a, b);
   const double work_of_f = work_of_f_alone - contact_free_displacement(scene, b) * solution.force;
   solution.norm_squared = work_of_f - pressure_times_road;
   solution.energy = solution.norm_squared / 2 - work_of_f;
@@ -326,12 +330,9 @@ ExactSolution solve_exactly(const ExactScene& scene) {
   const double margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
   const double crossing = crossing_angle(scene);
   if (crossing == 0) {
-    const double square =
-        (scene.outer_radius - scene.inner_radius) * (scene.outer_radius + scene.inner_radius);
-    const double b = scene.outer_radius, f = scene.force_density;
-    const double work = 2 * numbers::PI * f * f *
-                        (-square * square / 16 +
-                         b * b / 2 * (b * b / 2 * std::log(b / scene.inner_radius) - square / 4));
+    const double f = scene.force_density;
+    const double work =
+        2 * numbers::PI * f * f * contact_free_unit_work(scene.inner_radius, scene.outer_radius);
     return {scene, 0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {3 * numbers::PI / 2, 1, 1, {0.}}};
   }
   const RadialModes modes(scene.inner_radius, scene.outer_radius, scene.angular_velocity);

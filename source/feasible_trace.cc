@@ -24,6 +24,20 @@ FieldVector project_contact_nodes(const RingSpace& space, const ContactProblem& 
   return field;
 }
 
+namespace {
+
+/// The zero of @p function between two places where it has different signs.
+template <typename Function>
+double root(const Function& function, double left, double right, double at_left, double at_right) {
+  std::uintmax_t most_evaluations = 60;
+  const auto bracket = boost::math::tools::toms748_solve(
+      function, left, right, at_left, at_right, boost::math::tools::eps_tolerance<double>(40),
+      most_evaluations);
+  return (bracket.first + bracket.second) / 2;
+}
+
+} // namespace
+
 FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const FieldVector& field,
                              const std::vector<bool>& active)
     : road(scene.road), road_slope(scene.road_slope),
@@ -59,8 +73,12 @@ FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const F
 
 void FeasibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end) const {
   const auto excess_at = [&](double t) { return excess(edge, t); };
-  // u_h - phi vanishes at active nodes: what lies between them is looked at from inside.
+  const auto slope_at = [&](double t) { return excess_slope(edge, t); };
   std::vector<double> ends = {zone_begin};
+  const auto split = [&](double left, double right, double at_left, double at_right) {
+    if (at_left * at_right < 0)
+      ends.push_back(root(excess_at, left, right, at_left, at_right));
+  };
   const QGaussLobatto<1> nodes(shapes.size());
   const QGaussLobatto<1> samples(8);
   for (unsigned int k = 0; k + 1 < nodes.size(); ++k) {
@@ -68,17 +86,20 @@ void FeasibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end) 
     const double high = std::min(zone_end, nodes.point(k + 1)[0]);
     if (!(low < high))
       continue;
-    for (unsigned int i = 1; i + 2 < samples.size(); ++i) {
+    for (unsigned int i = 0; i + 1 < samples.size(); ++i) {
       const double left = low + (high - low) * samples.point(i)[0];
       const double right = low + (high - low) * samples.point(i + 1)[0];
       const double at_left = excess_at(left), at_right = excess_at(right);
-      if (at_left * at_right < 0) {
-        std::uintmax_t most_evaluations = 60;
-        const auto root = boost::math::tools::toms748_solve(
-            excess_at, left, right, at_left, at_right,
-            boost::math::tools::eps_tolerance<double>(40), most_evaluations);
-        ends.push_back((root.first + root.second) / 2);
-      }
+      const double rise_left = slope_at(left), rise_right = slope_at(right);
+      // Between samples the excess may have its only positive stretch, however short, and at
+      // active nodes it vanishes: an extremum parts what a comparison of signs would miss.
+      if (rise_left * rise_right < 0) {
+        const double extremum = root(slope_at, left, right, rise_left, rise_right);
+        const double at_extremum = excess_at(extremum);
+        split(left, extremum, at_left, at_extremum);
+        split(extremum, right, at_extremum, at_right);
+      } else
+        split(left, right, at_left, at_right);
     }
     ends.push_back(high);
   }
@@ -113,6 +134,10 @@ double FeasibleTrace::excess(const Edge& edge, double t) const {
   return discrete(edge, t) - road(edge.begin + t * (edge.end - edge.begin));
 }
 
+double FeasibleTrace::excess_slope(const Edge& edge, double t) const {
+  return discrete_slope(edge, t) - road_slope(edge.begin + t * (edge.end - edge.begin));
+}
+
 FeasibleTrace::Correction FeasibleTrace::correction(unsigned int face, const Piece& piece,
                                                     double t) const {
   const Edge& edge = edges[face];
@@ -125,7 +150,7 @@ FeasibleTrace::Correction FeasibleTrace::correction(unsigned int face, const Pie
       return {0, 0, -here};
     [[fallthrough]];
   case Piece::Kind::touching:
-    return {-excess(edge, t), road_slope(edge.begin + t * length) - discrete_slope(edge, t), 0};
+    return {-excess(edge, t), -excess_slope(edge, t), 0};
   case Piece::Kind::ramp: {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
     return {piece.value_begin + slope * (t - piece.t_begin), slope / length, 0};

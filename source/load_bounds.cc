@@ -13,7 +13,7 @@ using namespace dealii;
 LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
                       const MeshSolution& solution, MeshSystem& system, Result& result) {
   const CertifiedError here = *result.certified;
-  const double b = scene.outer_radius, c = parameters.road.distance;
+  const double b = scene.outer_radius, c = parameters.road.distance / scene.unit;
   const double w = result.patch.half_width();
   double step = 1e-3 * (b - scene.inner_radius);
   if (w > 0) {

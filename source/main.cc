@@ -28,7 +28,7 @@ void run(const CommandLine& line) {
   const auto directory = prepare_directory(parameters);
 
   report_scene(std::cout, scene, parameters);
-  if (!parameters.study.vary.empty()) {
+  if (!parameters.study.vary.empty() || !parameters.study.scenes.empty()) {
     const auto runs = run_study(parameters, directory, std::cout);
     std::cout << '\n';
     print_study(std::cout, runs);
@@ -36,13 +36,13 @@ void run(const CommandLine& line) {
     return;
   }
   Solution solution = simulate(scene, parameters);
-  report_result(std::cout, solution.result);
+  report_result(std::cout, to_lengths(solution.result, scene.unit));
   if (line.verify) {
     if (const auto exact = find_exact_solution(scene, parameters)) {
       solution.result.errors =
           measure_true_errors(*solution.space, solution.displacement, solution.result,
                               solution.certificate, exact_reference(*exact));
-      report_verification(std::cout, solution.result, *exact);
+      report_verification(std::cout, scene, solution.result, *exact);
     } else
       std::cout << "\nNo exact solution is known for this scene: its force is not constant, or its "
                    "zone cuts the contact short unevenly.\n";

@@ -3,11 +3,12 @@
 #include "assembly.h"
 #include "scene.h"
 
-#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
 
 namespace rollwave {
 
@@ -17,12 +18,28 @@ namespace {
 
 MeshFigures describe_mesh(const RingSpace& space) {
   const auto& triangulation = space.dof_handler().get_triangulation();
-  return {space.dof_handler().get_fe().degree,
-          triangulation.n_active_cells(),
-          space.n_unknowns(),
-          static_cast<unsigned int>(space.contact_nodes().size()),
-          GridTools::minimal_cell_diameter(triangulation, space.mapping()),
-          GridTools::maximal_cell_diameter(triangulation, space.mapping())};
+  MeshFigures figures = {space.dof_handler().get_fe().degree,
+                         triangulation.n_active_cells(),
+                         space.n_unknowns(),
+                         static_cast<unsigned int>(space.contact_nodes().size()),
+                         std::numeric_limits<double>::max(),
+                         0};
+  for (const auto& cell : triangulation.active_cell_iterators()) {
+    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+    const double diameter = std::hypot(size[0], space.outer_radius() * size[1]);
+    figures.h_min = std::min(figures.h_min, diameter);
+    figures.h_max = std::max(figures.h_max, diameter);
+  }
+  return figures;
+}
+
+/// @p field times rounding errors of random sign and usual size.
+FieldVector rounding_errors(const FieldVector& field) {
+  std::minstd_rand random(1);
+  FieldVector errors = field;
+  for (double& entry : errors)
+    entry *= (random() % 2 ? 0.25 : -0.25) * std::numeric_limits<double>::epsilon();
+  return errors;
 }
 
 /// part / whole, where a part of nothing is nothing.
@@ -32,7 +49,7 @@ double relative(double part, double whole) {
 
 Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
                             const ContactSolution& solution, const FieldVector& stiffness_times_u,
-                            const std::optional<FieldVector>& load) {
+                            const std::optional<FieldVector>& load, double round_off) {
   const auto& [displacement, force] = solution.state;
   FieldVector imbalance = stiffness_times_u;
   if (load)
@@ -51,10 +68,10 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
     force_times_gap += std::abs(force(i) * gap);
     force_times_road += std::abs(force(i) * problem.road(i));
   }
-  return {relative(imbalance.l2_norm(), std::max(load ? load->l2_norm() : 0., force.l2_norm())),
-          relative(penetration, displacement.linfty_norm()),
+  const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
+  return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
           relative(negative_pressure, highest_pressure),
-          relative(force_times_gap, force_times_road)};
+          relative(force_times_gap, force_times_road), relative(round_off, forces)};
 }
 
 std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
@@ -104,19 +121,20 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
   solution.displacement = solver->displacement_field(solution.contact.state);
   const Work::Phase phase(work, "measurement");
   solution.stiffness_times_u = solver->apply(solution.displacement);
+  solution.round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
   return solution;
 }
 
 void measure(const Scene& scene, const RingSpace& space, const MeshSystem& system,
              const MeshSolution& solution, Result& result) {
   const Work::Phase phase(result.work, "measurement");
-  const auto& [problem, contact, displacement, stiffness_times_u] = solution;
+  const auto& [problem, contact, displacement, stiffness_times_u, round_off] = solution;
   const auto& load = system.load;
   const double norm_squared = displacement * stiffness_times_u;
   result.mesh = describe_mesh(space);
   result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);
   result.energy = {norm_squared / 2 - (load ? displacement * *load : 0.), norm_squared};
-  result.residuals = measure_residuals(space, problem, contact, stiffness_times_u, load);
+  result.residuals = measure_residuals(space, problem, contact, stiffness_times_u, load, round_off);
   result.contact_rows = tabulate_contact(space, problem, contact.state);
   result.surface = tabulate_surface(space, displacement);
   result.history = contact.history;

@@ -48,6 +48,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
                            const Parameters& parameters, Solution& solution) {
   WrittenFiles written;
   Work& work = solution.result.work;
+  const double b = parameters.cylinder.outer_radius;
   const auto add = [&](const std::string& name, const std::string& content) {
     work.bytes_written += write_file(directory / name, content);
     written.files.push_back(directory / name);
@@ -55,7 +56,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
   {
     const Work::Phase phase(work, "output");
     if (parameters.wants(OutputFile::contact))
-      add("contact.csv", contact_csv(solution.result));
+      add("contact.csv", contact_csv(to_lengths(solution.result, scene.unit)));
     if (parameters.wants(OutputFile::parameters)) {
       std::ostringstream text;
       write_parameters(text, parameters);
@@ -63,7 +64,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
     }
     if (parameters.wants(OutputFile::solution)) {
       AtomicFile file(directory / "solution.vtu");
-      write_solution_vtu(file.stream(), solution);
+      // The format's numbers have single precision.
+      const bool fits = 1e-25 < b && b < 1e35;
+      write_solution_vtu(file.stream(), solution, fits ? scene.unit : 1 / scene.outer_radius);
+      if (!fits)
+        written.remarks.push_back("solution.vtu gives lengths over the outer radius, since they "
+                                  "leave the range of single precision");
       work.bytes_written += file.commit();
       written.files.push_back(directory / "solution.vtu");
     }
@@ -79,7 +85,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       add_picture("mesh.svg", plot_mesh(scene, solution));
   }
   if (parameters.wants(OutputFile::summary))
-    add("summary.json", summary_json(scene, parameters, solution.result));
+    add("summary.json", summary_json(scene, parameters, to_lengths(solution.result, scene.unit)));
   return written;
 }
 

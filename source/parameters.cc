@@ -35,6 +35,22 @@ std::vector<std::vector<Setting>> parse_vary(const std::string& text) {
   return vary;
 }
 
+std::vector<Parameters::NamedScene> parse_scenes(const std::string& text) {
+  std::vector<Parameters::NamedScene> scenes;
+  for (const std::string& part : split(text, ';')) {
+    const auto colon = part.find(':');
+    if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
+      throw std::invalid_argument(text);
+    scenes.push_back({trimmed(part.substr(0, colon)), {}});
+    for (const std::string& assignment : split(part.substr(colon + 1), '&')) {
+      scenes.back().settings.push_back(parse_setting(assignment, "Study/Scenes"));
+      if (scenes.back().settings.back().section == "Study")
+        throw std::invalid_argument(text);
+    }
+  }
+  return scenes;
+}
+
 std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
   std::vector<std::optional<unsigned int>> counts;
   for (const std::string& part : split(text, ','))
@@ -86,16 +102,18 @@ void declare(Declarations& keys, Parameters& p) {
       "Contact zone", "auto",
       [&p](const std::string& text) { p.road.contact_zone = parse_zone(text); },
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
-      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is the zone "
-      "where "
-      "phi < b.");
+      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
+      "surface without contact would be beyond the road, and two cells more; where the force is "
+      "not uniform, it is where phi < b.");
   keys.leave();
 
   keys.enter("Mesh");
   keys.add_count("Degree", p.mesh.degree, 1, 8,
                  "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.");
-  keys.add_count("Radial cells", p.mesh.radial_cells, 1, most,
-                 "Cells from hub to surface, 1 or more.");
+  keys.add_count(
+      "Radial cells", p.mesh.radial_cells, 1, most,
+      "Cells from hub to surface, 1 or more: of equal heights, which grow with the radius next "
+      "to a hub that is smaller than they would be.");
   keys.add_count("Angular cells", p.mesh.angular_cells, 3, most, "Cells around, 3 or more.");
   keys.add_count("Global refinements", p.mesh.global_refinements, 0, 20,
                  "How often every cell is cut into four, 0 to 20.");
@@ -189,6 +207,11 @@ void declare(Declarations& keys, Parameters& p) {
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
       "varies fastest.");
+  keys.add(
+      "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
+      "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
+      "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
+      "Mesh/Radial cells = 8\". Every scene is run with every combination of Vary.");
   keys.add(
       "Published steps", "",
       [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },

@@ -1,8 +1,8 @@
 #include "potential_shapes.h"
 
+#include "radial_rule.h"
 #include "scene.h"
 
-#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/legendre.hpp>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -42,29 +42,21 @@ PotentialShapes::PotentialShapes(const Scene& scene, unsigned int degree, double
 
 std::vector<double> PotentialShapes::primitives(double r) const {
   // 1, then int_begin^r rho alpha P_j(x(rho)) drho over the depth of the interval. The only
-  // singularity is at rho = 0: on pieces whose ends have the ratio 3/2 at most, the rule is exact
-  // to round-off. The integrand is of one sign but for P_j: no difference of depths is taken, which
-  // would cancel in thin layers at the surface and the critical speed.
+  // singularity is at rho = 0, and the rule is exact to round-off. The integrand is of one sign but
+  // for P_j: no difference of depths is taken, which would cancel in thin layers at the surface and
+  // the critical speed.
   std::vector<double> result(degree + 1, 0.);
   result[0] = 1;
   if (!(r > begin))
     return result;
-  const auto& points = boost::math::quadrature::gauss<double, 16>::abscissa();
-  const auto& weights = boost::math::quadrature::gauss<double, 16>::weights();
-  const int n_pieces = std::max(1., std::ceil(std::log(r / begin) / std::log(1.5)));
-  double low = begin;
-  for (int piece = 1; piece <= n_pieces; ++piece) {
-    const double high =
-        piece == n_pieces ? r : begin * std::pow(r / begin, static_cast<double>(piece) / n_pieces);
-    for (unsigned int i = 0; i < points.size(); ++i)
-      for (const double sign : {-1., 1.}) {
-        const double rho = low + (high - low) * (1 + sign * points[i]) / 2;
-        const double weight = weights[i] * (high - low) / 2 * rho * scene.alpha(rho) / length;
-        const auto p = legendre(degree, 2 * (rho - begin) / (end - begin) - 1);
-        for (unsigned int j = 0; j < degree; ++j)
-          result[j + 1] += weight * p[j];
-      }
-    low = high;
+  static const QGauss<1> gauss(16);
+  const RadialRule rule = graded_rule(begin, r, gauss);
+  for (unsigned int q = 0; q < rule.r.size(); ++q) {
+    const double rho = rule.r[q];
+    const double weight = rule.weight[q] * rho * scene.alpha(rho) / length;
+    const auto p = legendre(degree, 2 * (rho - begin) / (end - begin) - 1);
+    for (unsigned int j = 0; j < degree; ++j)
+      result[j + 1] += weight * p[j];
   }
   return result;
 }

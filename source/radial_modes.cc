@@ -1,5 +1,7 @@
 #include "radial_modes.h"
 
+#include "contact_free.h"
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -87,7 +89,10 @@ struct RadialModes::Samples {
 
 RadialModes::RadialModes(double inner_radius, double outer_radius, double angular_velocity)
     : a(inner_radius), b(outer_radius), omega(std::min(angular_velocity, 1 / outer_radius)) {
-  for (int panel = 0; panel < n_panels; ++panel) {
+  hub_fades_at = 1;
+  while (hub_matters(hub_fades_at))
+    hub_fades_at *= 2;
+  for (int panel = 0; panel < n_panels || std::ldexp(first_panel, panel) < hub_fades_at; ++panel) {
     const double begin = std::ldexp(first_panel, panel);
     panels.emplace_back();
     for (int i = 0; i < n_chebyshev; ++i) {
@@ -99,7 +104,7 @@ RadialModes::RadialModes(double inner_radius, double outer_radius, double angula
 
 RadialModes::Samples RadialModes::sample(double k) const {
   const SpectralIntegration& rule = spectral_integration();
-  const double depth = std::log(b / a);
+  const double depth = log_of_ratio(b, a);
   std::array<double, n_points> theta;
   for (int i = 0; i < n_points; ++i)
     theta[i] = logarithmic_derivative(k, k * omega * b * std::exp((rule.point[i] - 1) * depth / 2));
@@ -123,13 +128,16 @@ double RadialModes::compliance_without_hub(double k) const {
   return b / logarithmic_derivative(k, k * omega * b);
 }
 
+bool RadialModes::hub_matters(double k) const {
+  // theta falls from the hub to the surface: the inner half alone bounds the exponent from below.
+  const double at_middle = logarithmic_derivative(k, k * omega * std::sqrt(a * b));
+  return at_middle * log_of_ratio(b, a) / 2 <= negligible_exponent;
+}
+
 double RadialModes::computed_compliance(double k) const {
   if (k == 0)
-    return b * std::log(b / a);
-  // theta falls from the hub to the surface: the inner half alone bounds the exponent from below.
-  const double depth = std::log(b / a);
-  const double at_middle = logarithmic_derivative(k, k * omega * std::sqrt(a * b));
-  if (at_middle * depth / 2 > negligible_exponent)
+    return b * log_of_ratio(b, a);
+  if (!hub_matters(k))
     return compliance_without_hub(k);
   const Samples samples = sample(k);
   if (samples.largest_exponent > negligible_exponent)
@@ -159,11 +167,11 @@ double RadialModes::compliance(double k) const {
 }
 
 RadialModes::Profile RadialModes::profile(double k, const std::vector<double>& radii) const {
-  const double depth = std::log(b / a);
+  const double depth = log_of_ratio(b, a);
   Profile profile;
   if (k == 0) {
     for (const double r : radii) {
-      profile.value.push_back(std::log(r / a) / depth);
+      profile.value.push_back(log_of_ratio(r, a) / depth);
       profile.derivative.push_back(1 / (r * depth));
     }
     return profile;
@@ -181,7 +189,7 @@ RadialModes::Profile RadialModes::profile(double k, const std::vector<double>& r
   }
   for (const double r : radii) {
     // Barycentric interpolation between Gauss-Legendre points.
-    const double t = 1 + 2 * std::log(r / b) / depth;
+    const double t = 1 + 2 * std::log1p((r - b) / b) / depth;
     double numerator = 0, q_numerator = 0, denominator = 0;
     for (int i = 0; i < n_points; ++i) {
       const double distance = t - rule.point[i];

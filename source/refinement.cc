@@ -25,6 +25,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
 
 namespace {
 
+/// A cell that is longer than high by this factor counts as flat.
+constexpr double flat_cell = 8;
+
 /// The number of active cells after the refinement that is flagged.
 unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
   unsigned int flagged = 0;
@@ -33,12 +36,29 @@ unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
   return triangulation.n_active_cells() + 3 * flagged;
 }
 
+/// Flags the cells above and below a flagged one of their level, from hub to surface.
+void flag_column(const Triangulation<2>::active_cell_iterator& cell) {
+  for (const unsigned int face : {0U, 1U})
+    for (auto next = cell; !next->at_boundary(face) && next->neighbor(face)->is_active() &&
+                           next->neighbor(face)->level() == cell->level();) {
+      next = next->neighbor(face);
+      next->set_refine_flag();
+    }
+}
+
 /// Flags the cells from the value @p last_marked on. Mirror images have the same indicator but for
-/// round-off, which shall not choose between them.
+/// round-off, which shall not choose between them. Where cells are flat, all of a column are
+/// flagged: u and the dual potential hardly vary over the height of such a cell but for what its
+/// ends impose, and a trace that is finer at one end than at the other would have to change within
+/// it, at a cost that grows with the square of length over height.
 void flag(Triangulation<2>& triangulation, const Vector<double>& squares, double last_marked) {
   for (const auto& cell : triangulation.active_cell_iterators())
-    if (squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked)
+    if (squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked) {
       cell->set_refine_flag();
+      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+      if (cell->center()[0] * size[1] > flat_cell * size[0])
+        flag_column(cell);
+    }
 }
 
 void clear_flags(Triangulation<2>& triangulation) {

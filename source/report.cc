@@ -62,8 +62,9 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
 
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
   out << version_text() << '\n'
-      << "Cylinder   a = " << scene.inner_radius << ", b = " << scene.outer_radius
-      << ", omega = " << scene.angular_velocity
+      << "Cylinder   a = " << parameters.cylinder.inner_radius
+      << ", b = " << parameters.cylinder.outer_radius
+      << ", omega = " << parameters.cylinder.angular_velocity
       << " (omega b = " << scene.angular_velocity * scene.outer_radius
       << "), f = " << parameters.cylinder.radial_force << '\n'
       << "Road       distance " << parameters.road.distance << ", zone of possible contact ["
@@ -112,7 +113,8 @@ void report_result(std::ostream& out, const Result& result) {
   out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
       << ", penetration " << result.residuals.penetration << ", negative pressure "
       << result.residuals.negative_pressure << ", complementarity "
-      << result.residuals.complementarity << '\n'
+      << result.residuals.complementarity << "; rounding u makes " << result.residuals.round_off
+      << '\n'
       << std::setprecision(6);
 }
 

@@ -1,8 +1,13 @@
 #include "result.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rollwave {
+
+double Residuals::largest() const {
+  return std::max({equilibrium, penetration, negative_pressure, complementarity});
+}
 
 double pressure_at(const std::vector<ContactRow>& rows, double z) {
   const auto next =
@@ -15,6 +20,45 @@ double pressure_at(const std::vector<ContactRow>& rows, double z) {
   const ContactRow& before = *(next - 1);
   const double t = (z - before.angle) / (next->angle - before.angle);
   return (1 - t) * before.pressure + t * next->pressure;
+}
+
+Result to_lengths(Result result, double unit) {
+  const double square = unit * unit;
+  for (double* const length : {&result.mesh.h_min, &result.mesh.h_max, &result.patch.force,
+                               &result.patch.vertical_load, &result.patch.work_conjugate_load})
+    *length *= unit;
+  result.energy.value *= square;
+  result.energy.norm_squared *= square;
+  if (auto& certified = result.certified) {
+    certified->energy_norm *= unit;
+    certified->lower_bound *= square;
+    certified->upper_bound *= square;
+    certified->norm_squared *= square;
+  }
+  if (auto& load = result.load_bounds) {
+    load->lower *= unit;
+    load->upper *= unit;
+  }
+  if (auto& errors = result.errors) {
+    errors->energy_norm *= unit;
+    errors->l2_norm *= square;
+    errors->pressure *= std::sqrt(unit);
+    errors->force *= unit;
+    errors->energy *= square;
+    if (errors->feasible_energy_norm)
+      *errors->feasible_energy_norm *= unit;
+  }
+  for (CycleFigures& cycle : result.cycles)
+    cycle.indicated *= unit;
+  for (ContactStep& step : result.history)
+    step.penetration *= unit;
+  result.rho /= unit;
+  for (ContactRow& row : result.contact_rows)
+    for (double* const length : {&row.displacement, &row.road, &row.gap})
+      *length *= unit;
+  for (SurfacePoint& point : result.surface)
+    point.displacement *= unit;
+  return result;
 }
 
 } // namespace rollwave

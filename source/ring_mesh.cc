@@ -4,6 +4,7 @@
 #include "parameters.h"
 #include "scene.h"
 
+#include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace rollwave {
@@ -21,25 +23,67 @@ namespace {
 
 constexpr double seam_angle = numbers::PI / 2;
 
-/// The angular lengths of the cells: equal, or nearly so where the user gives a zone of contact,
-/// whose ends shall be vertices.
-std::vector<double> angular_steps(const Scene& scene, const Parameters& parameters) {
+/// @p n + 1 places from @p begin to @p end at equal distances, without the first.
+void append_equal(std::vector<double>& places, double begin, double end, int n) {
+  for (int i = 1; i < n; ++i)
+    places.push_back(begin + (end - begin) * i / n);
+  places.push_back(end);
+}
+
+/// The angles of the vertices: at equal distances, or nearly so where the user gives a zone of
+/// contact, whose ends shall be vertices.
+std::vector<double> angles_of(const Scene& scene, const Parameters& parameters) {
   const int n = parameters.mesh.angular_cells;
-  if (!parameters.road.contact_zone)
-    return std::vector<double>(n, 2 * numbers::PI / n);
-  const double before = scene.zone_begin - seam_angle;
-  const double zone = scene.zone_end - scene.zone_begin;
-  const double after = 2 * numbers::PI - before - zone;
+  const double end = seam_angle + 2 * numbers::PI;
+  std::vector<double> angles = {seam_angle};
+  if (!parameters.road.contact_zone) {
+    append_equal(angles, seam_angle, end, n);
+    return angles;
+  }
   const auto share = [n](double arc, int least, int most) {
     return std::clamp<int>(std::lround(n * arc / (2 * numbers::PI)), least, most);
   };
-  const int n_zone = share(zone, 1, n - 2);
-  const int n_before = share(before, 1, n - n_zone - 1);
-  const int n_after = n - n_zone - n_before;
-  std::vector<double> steps(n_before, before / n_before);
-  steps.insert(steps.end(), n_zone, zone / n_zone);
-  steps.insert(steps.end(), n_after, after / n_after);
-  return steps;
+  const int n_zone = share(scene.zone_end - scene.zone_begin, 1, n - 2);
+  const int n_before = share(scene.zone_begin - seam_angle, 1, n - n_zone - 1);
+  append_equal(angles, seam_angle, scene.zone_begin, n_before);
+  append_equal(angles, scene.zone_begin, scene.zone_end, n_zone);
+  append_equal(angles, scene.zone_end, end, n - n_zone - n_before);
+  return angles;
+}
+
+/// The radii of the vertices: at equal distances, unless cells next to the hub would be taller than
+/// its radius. Since u is much like ln(r/a) there, heights then grow with the radius first, r_i = a
+/// q^i, and are equal from where that would make them taller. q is 2 where the cells suffice, else
+/// half of the cells grow.
+std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
+  const double a = inner_radius, b = outer_radius;
+  std::vector<double> radii = {a};
+  if ((b - a) / n <= a || n < 3) {
+    append_equal(radii, a, b, n);
+    return radii;
+  }
+  // By how much the last growing cell exceeds the equal ones.
+  const auto excess = [&](double q, int n_growing) {
+    const double r = a * std::pow(q, n_growing);
+    return r * (1 - 1 / q) - (b - r) / (n - n_growing);
+  };
+  int n_growing = 1;
+  while (n_growing < n - 1 && excess(2, n_growing) < 0)
+    ++n_growing;
+  double q = 2;
+  if (excess(q, n_growing) < 0) {
+    n_growing = n / 2;
+    std::uintmax_t most_evaluations = 100;
+    q = boost::math::tools::toms748_solve([&](double ratio) { return excess(ratio, n_growing); },
+                                          2., std::pow(b / a, 1. / n_growing),
+                                          boost::math::tools::eps_tolerance<double>(40),
+                                          most_evaluations)
+            .first;
+  }
+  for (int i = 1; i <= n_growing; ++i)
+    radii.push_back(a * std::pow(q, i));
+  append_equal(radii, radii.back(), b, n - n_growing);
+  return radii;
 }
 
 } // namespace
@@ -56,13 +100,19 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
 
   auto triangulation =
       std::make_unique<Triangulation<2>>(Triangulation<2>::limit_level_difference_at_vertices);
-  const std::vector<double> radial(mesh.radial_cells,
-                                   (scene.outer_radius - scene.inner_radius) / mesh.radial_cells);
+  const std::vector<double> radii =
+      radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
+  const std::vector<double> angles = angles_of(scene, parameters);
+  // In units of cells first: heights may be far smaller than lengths in z, and places shall be
+  // exact, those of the surface above all.
   GridGenerator::subdivided_hyper_rectangle(
-      *triangulation, {radial, angular_steps(scene, parameters)},
-      Point<2>(scene.inner_radius, seam_angle),
-      Point<2>(scene.outer_radius, seam_angle + 2 * numbers::PI),
-      /*colorize=*/true);
+      *triangulation, {mesh.radial_cells, mesh.angular_cells}, Point<2>(),
+      Point<2>(mesh.radial_cells, mesh.angular_cells), /*colorize=*/true);
+  GridTools::transform(
+      [&](const Point<2>& cells) {
+        return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
+      },
+      *triangulation);
   std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
   GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
                                     seam);

@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "contact_free.h"
 #include "errors.h"
 #include "parameters.h"
 
@@ -17,12 +18,24 @@ namespace rollwave {
 
 using namespace dealii;
 
+double from_lowest_point(double z) {
+  constexpr double rounded = 4.71238898038468985769, // the double nearest to 3 pi/2
+      rest = 1.8369701987210297e-16;
+  return (z - rounded) - rest;
+}
+
 std::function<double(double)> flat_road(double outer_radius, double distance) {
-  return [=](double z) { return -outer_radius - distance / std::sin(z); };
+  return [=](double z) {
+    const double x = from_lowest_point(z), sine = std::sin(x / 2);
+    return (distance - outer_radius) + 2 * distance * sine * sine / std::cos(x);
+  };
 }
 
 std::function<double(double)> flat_road_slope(double distance) {
-  return [=](double z) { return distance * std::cos(z) / (std::sin(z) * std::sin(z)); };
+  return [=](double z) {
+    const double x = from_lowest_point(z), cosine = std::cos(x);
+    return distance * std::sin(x) / (cosine * cosine);
+  };
 }
 
 namespace {
@@ -143,6 +156,19 @@ std::function<double(double, double)> parse_force(const Parameters& parameters) 
   return force;
 }
 
+/// Half the angle in which the surface can touch a flat road. Contact pushes inwards, so that u <=
+/// u_f, the displacement without contact: where the force is uniform, contact ends before phi =
+/// u_f. Two cells are added, since contact that ends within a cell is felt next to it. An uneven
+/// force has phi < b as its limit, and no zone goes beyond that.
+double possible_half_width(const Scene& scene, double distance, unsigned int angular_cells) {
+  const double a = scene.inner_radius, b = scene.outer_radius;
+  const double widest = std::acos(distance / (2 * b));
+  if (scene.force && !scene.uniform_force)
+    return widest;
+  const double free = scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b);
+  return std::min(widest, crossing_angle(b, distance, free) + 4 * numbers::PI / angular_cells);
+}
+
 } // namespace
 
 Scene make_scene(const Parameters& parameters) {
@@ -151,27 +177,31 @@ Scene make_scene(const Parameters& parameters) {
   check_road(parameters);
 
   Scene scene;
-  scene.inner_radius = parameters.cylinder.inner_radius;
-  scene.outer_radius = parameters.cylinder.outer_radius;
-  scene.angular_velocity = parameters.cylinder.angular_velocity;
+  const double unit = std::ldexp(1., std::ilogb(parameters.cylinder.outer_radius));
+  scene.unit = unit;
+  scene.inner_radius = parameters.cylinder.inner_radius / unit;
+  scene.outer_radius = parameters.cylinder.outer_radius / unit;
+  scene.angular_velocity = parameters.cylinder.angular_velocity * unit;
   const std::optional<double> constant = constant_force(parameters);
   if (!constant)
-    scene.force = parse_force(parameters);
+    scene.force = [unit, f = parse_force(parameters)](double r, double z) {
+      return unit * f(unit * r, z);
+    };
   else if (*constant != 0) { // for 0 no load is ever assembled
-    scene.uniform_force = constant;
-    scene.force = [f = *constant](double, double) { return f; };
+    scene.uniform_force = unit * *constant;
+    scene.force = [f = *scene.uniform_force](double, double) { return f; };
   }
-  scene.road = flat_road(scene.outer_radius, parameters.road.distance);
-  scene.road_slope = flat_road_slope(parameters.road.distance);
+  const double distance = parameters.road.distance / unit;
+  scene.road = flat_road(scene.outer_radius, distance);
+  scene.road_slope = flat_road_slope(distance);
 
   if (const auto& zone = parameters.road.contact_zone) {
     scene.zone_begin = zone->first;
     scene.zone_end = zone->second;
   } else {
-    // phi < b where sin z < -c / (2 b)
-    const double half_open = std::asin(parameters.road.distance / (2 * scene.outer_radius));
-    scene.zone_begin = numbers::PI + half_open;
-    scene.zone_end = 2 * numbers::PI - half_open;
+    const double half_width = possible_half_width(scene, distance, parameters.mesh.angular_cells);
+    scene.zone_begin = 3 * numbers::PI / 2 - half_width;
+    scene.zone_end = 3 * numbers::PI / 2 + half_width;
   }
   return scene;
 }

@@ -26,7 +26,8 @@ std::optional<std::string> plot_scene(const Scene& scene, const Parameters& para
     script << row.angle << ' ' << row.pressure << '\n';
   script << "EOD\n";
 
-  script << "a = " << scene.inner_radius / b << "\nc = " << parameters.road.distance / b << '\n'
+  script << "a = " << scene.inner_radius / b
+         << "\nc = " << parameters.road.distance / parameters.cylinder.outer_radius << '\n'
          << R"(
 set multiplot
 set samples 361

@@ -77,6 +77,15 @@ std::string shortfall_text(const Parameters& parameters, double reached) {
   return text.str();
 }
 
+std::string residual_text(const Residuals& residuals) {
+  std::ostringstream text;
+  text << "the conditions of contact and equilibrium hold to " << residuals.largest()
+       << " only, wanted " << wanted_residual << "; rounding the displacement makes "
+       << residuals.round_off
+       << ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
+  return text.str();
+}
+
 /// Which parts of the linear problems are kept when they have been used.
 enum class Keep { nothing, everything };
 
@@ -135,6 +144,9 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
     }
     if (wants_error && !is_reached)
       result.shortfall = shortfall_text(parameters, result.certified->relative);
+    else if (result.residuals.largest() > wanted_residual &&
+             parameters.contact.method == ContactMethod::active_set)
+      result.shortfall = residual_text(result.residuals);
     if (parameters.certificate.load_bounds)
       result.load_bounds =
           bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);

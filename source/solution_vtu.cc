@@ -19,7 +19,7 @@ namespace {
 /// One patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCylinder : public DataOutInterface<2> {
 public:
-  explicit DeformedCylinder(const Solution& solution);
+  DeformedCylinder(const Solution& solution, double unit);
 
 private:
   const std::vector<DataOutBase::Patch<2>>& get_patches() const override { return patches; }
@@ -41,7 +41,7 @@ std::vector<float> nodal_pressure(const Solution& solution) {
   return pressure;
 }
 
-DeformedCylinder::DeformedCylinder(const Solution& solution) {
+DeformedCylinder::DeformedCylinder(const Solution& solution, double unit) {
   const RingSpace& space = *solution.space;
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   // From the order of points in a patch, r running fastest, to the element's own order.
@@ -75,12 +75,12 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
         if (const auto* entries = space.constraints().get_constraint_entries(dof))
           if (entries->size() == 1)
             dof = entries->front().first;
-      patch.data(0, i) = u;
+      patch.data(0, i) = u * unit;
       patch.data(1, i) = pressure[dof];
       if (solution.certificate)
-        patch.data(2, i) = solution.certificate->cell_bounds[cell->active_cell_index()];
-      patch.data(x_row, i) = r * std::cos(z);
-      patch.data(y_row, i) = r * std::sin(z);
+        patch.data(2, i) = solution.certificate->cell_bounds[cell->active_cell_index()] * unit;
+      patch.data(x_row, i) = r * std::cos(z) * unit;
+      patch.data(y_row, i) = r * std::sin(z) * unit;
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
@@ -90,8 +90,8 @@ DeformedCylinder::DeformedCylinder(const Solution& solution) {
 
 } // namespace
 
-void write_solution_vtu(std::ostream& out, const Solution& solution) {
-  DeformedCylinder cylinder(solution);
+void write_solution_vtu(std::ostream& out, const Solution& solution, double unit) {
+  DeformedCylinder cylinder(solution, unit);
   DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;
   flags.compression_level = decltype(flags.compression_level)::best_speed;

@@ -38,11 +38,26 @@ std::vector<std::vector<Setting>> combinations(const std::vector<std::vector<Set
   return all;
 }
 
-/// The parameters of one run, which is no study itself.
-Parameters run_parameters(const Parameters& parameters, const std::vector<Setting>& varied) {
-  std::vector<Setting> settings = parameters.settings;
-  settings.insert(settings.end(), varied.begin(), varied.end());
-  return read_parameters(settings);
+/// What one run is to do: all that is set, and of that what varies within the scene.
+struct Plan {
+  std::string scene;
+  std::vector<Setting> varied;
+  Parameters parameters; ///< without a study
+};
+
+std::vector<Plan> make_plans(const Parameters& parameters) {
+  std::vector<Parameters::NamedScene> scenes = parameters.study.scenes;
+  if (scenes.empty())
+    scenes.push_back({"", {}});
+  std::vector<Plan> plans;
+  for (const auto& scene : scenes)
+    for (const auto& varied : combinations(parameters.study.vary)) {
+      std::vector<Setting> settings = parameters.settings;
+      settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
+      settings.insert(settings.end(), varied.begin(), varied.end());
+      plans.push_back({scene.name, varied, read_parameters(settings)});
+    }
+  return plans;
 }
 
 /// The adaptive solution with quadratic elements that errors are measured against where no exact
@@ -173,39 +188,41 @@ std::vector<StudyRun> finished_runs(const Parameters& parameters,
 
 std::vector<StudyRun> run_study(const Parameters& parameters,
                                 const std::filesystem::path& directory, std::ostream& progress) {
-  const auto varied = combinations(parameters.study.vary);
+  const std::vector<Plan> plans = make_plans(parameters);
   const auto& published = parameters.study.published_steps;
-  if (!published.empty() && published.size() != varied.size())
+  if (!published.empty() && published.size() != plans.size())
     throw BadInput(refusal(parameters.settings, "Study", "Published steps",
                            "there are " + std::to_string(published.size()) + " entries for " +
-                               std::to_string(varied.size()) + " runs"));
+                               std::to_string(plans.size()) + " runs"));
   Sweep sweep;
-  for (const auto& settings : varied) {
-    const Parameters own = run_parameters(parameters, settings);
-    sweep.announce(make_scene(own), own);
-  }
+  for (const Plan& plan : plans)
+    sweep.announce(make_scene(plan.parameters), plan.parameters);
 
   const auto finished = finished_runs(parameters, directory);
   std::vector<StudyRun> runs;
   References references;
-  for (const auto& settings : varied) {
+  for (const Plan& plan : plans) {
     StudyRun run;
-    run.settings = settings;
+    run.scene = plan.scene;
+    run.settings = plan.varied;
     if (!published.empty())
       run.published_steps = published[runs.size()];
-    progress << "run " << runs.size() + 1 << " of " << varied.size() << ':';
-    for (const Setting& setting : settings)
+    progress << "run " << runs.size() + 1 << " of " << plans.size() << ':';
+    if (!plan.scene.empty())
+      progress << "  " << plan.scene;
+    for (const Setting& setting : plan.varied)
       progress << "  " << setting.path() << " = " << setting.value;
     if (runs.size() < finished.size()) {
       progress << "  (done before)" << std::endl;
       run.figures = finished[runs.size()].figures;
       run.reference = finished[runs.size()].reference;
+      run.failure = finished[runs.size()].failure;
       runs.push_back(std::move(run));
       continue;
     }
     progress << std::endl;
     try {
-      const Parameters own = run_parameters(parameters, settings);
+      const Parameters& own = plan.parameters;
       const Scene scene = make_scene(own);
       Solution& solution = sweep.solve(scene, own);
       Result& result = solution.result;
@@ -215,10 +232,13 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
                                             solution.certificate, reference);
         run.reference = reference.name;
       }
-      run.figures = figures_of(result);
+      run.figures = figures_of(to_lengths(result, scene.unit));
+      run.failure = result.shortfall;
     } catch (const NotSolved& failure) {
-      progress << "  not solved: " << failure.what() << std::endl;
+      run.failure = failure.what();
     }
+    if (!run.failure.empty())
+      progress << "  not solved: " << run.failure << std::endl;
     runs.push_back(std::move(run));
     write_file(directory / "study.csv", study_csv(runs));
   }

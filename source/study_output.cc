@@ -32,6 +32,9 @@ bool has_certificate(const StudyRun& run) {
 bool has_linear_iterations(const StudyRun& run) {
   return run.figure("linear_iterations").value_or(0) > 0;
 }
+bool has_scene(const StudyRun& run) {
+  return !run.scene.empty();
+}
 bool has_errors(const StudyRun& run) {
   return run.figure("error_relative").has_value();
 }
@@ -61,9 +64,12 @@ std::string observed_order(const StudyRun& before, const StudyRun& run, const st
 TableHandler make_table(const std::vector<StudyRun>& runs) {
   TableHandler table;
   const bool with_errors = any(runs, has_errors);
+  const bool with_scenes = any(runs, has_scene);
   const bool with_published = any(runs, has_published_steps);
   for (unsigned int i = 0; i < runs.size(); ++i) {
     const StudyRun& run = runs[i];
+    if (with_scenes)
+      table.add_value("scene", run.scene);
     for (const Setting& setting : run.settings)
       table.add_value(setting.key, setting.value);
     const auto add = [&](const std::string& column, const std::string& figure, int digits) {
@@ -76,7 +82,12 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
     if (with_published)
       table.add_value("published",
                       run.published_steps ? std::to_string(*run.published_steps) : "-");
-    if (with_errors) {
+    if (with_scenes) {
+      add("F", "force", 9);
+      add("J", "energy", 9);
+      if (with_errors)
+        add("energy norm", "error_relative", 3);
+    } else if (with_errors) {
       const auto add_error = [&](const std::string& column, const std::string& figure) {
         add(column, figure, 3);
         table.add_value(column + " order",
@@ -99,6 +110,11 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
         add("effectivity", "effectivity", 3);
         add("bound/error", "bound_over_error", 3);
       }
+    }
+    if (with_scenes) {
+      add("residual", "residual", 2);
+      add("round-off", "round_off", 2);
+      table.add_value("outcome", std::string(run.failure.empty() ? "solved" : "not solved"));
     }
     add("seconds", "seconds", 3);
   }
@@ -159,6 +175,9 @@ void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
     out << "Certified: the guaranteed bound of the relative error in the energy norm of the "
            "feasible displacement.\n";
   make_table(runs).write_text(out, TableHandler::table_with_headers);
+  for (const StudyRun& run : runs)
+    if (!run.failure.empty() && !run.scene.empty())
+      out << "Not solved, " << run.scene << ": " << run.failure << '\n';
   print_orders(out, runs);
 }
 
@@ -191,7 +210,9 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
   const RunValue published = [](const StudyRun& run) {
     return run.published_steps ? std::optional<double>(*run.published_steps) : std::nullopt;
   };
-  const RunValue varied = [](const StudyRun& run) { return number_of(run.settings.back().value); };
+  const RunValue varied = [](const StudyRun& run) {
+    return run.settings.empty() ? std::nullopt : number_of(run.settings.back().value);
+  };
   const RunValue steps = figure("contact_steps");
   if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return varied(run); }))
     add_plot("study.svg", {runs.front().settings.back().path(),

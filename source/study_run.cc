@@ -2,6 +2,7 @@
 
 #include "memory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -40,6 +41,8 @@ const std::vector<std::string>& figure_names() {
                                                  "energy_upper_bound",
                                                  "effectivity",
                                                  "bound_over_error",
+                                                 "residual",
+                                                 "round_off",
                                                  "seconds_mesh",
                                                  "seconds_space",
                                                  "seconds_assembly",
@@ -58,7 +61,7 @@ const std::vector<std::string>& figure_names() {
 
 /// The end of the header, which is the same for all studies.
 std::string figure_header() {
-  std::string header = "solved,published_steps,reference";
+  std::string header = "solved,published_steps,reference,failure";
   for (const std::string& name : figure_names())
     header += "," + name;
   return header;
@@ -72,9 +75,9 @@ std::optional<double> StudyRun::figure(const std::string& name) const {
 }
 
 std::string StudyRun::curve() const {
-  std::string text;
+  std::string text = scene;
   for (unsigned int i = 0; i + 1 < settings.size(); ++i)
-    text += (i > 0 ? ", " : "") + settings[i].key + " " + settings[i].value;
+    text += (text.empty() ? "" : ", ") + settings[i].key + " " + settings[i].value;
   return text;
 }
 
@@ -90,6 +93,8 @@ std::map<std::string, double> figures_of(const Result& result) {
                                            {"energy", result.energy.value},
                                            {"half_width", result.patch.half_width()},
                                            {"peak_pressure", result.patch.peak_pressure},
+                                           {"residual", result.residuals.largest()},
+                                           {"round_off", result.residuals.round_off},
                                            {"seconds", result.work.total_seconds()},
                                            {"peak_memory_mib", peak_memory_mib()}};
   for (const auto& [phase, seconds] : result.work.seconds())
@@ -123,10 +128,14 @@ std::map<std::string, double> figures_of(const Result& result) {
 std::string study_csv(const std::vector<StudyRun>& runs) {
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
+  if (!runs.front().scene.empty())
+    out << "scene,";
   for (const Setting& setting : runs.front().settings)
     out << setting.path() << ',';
   out << figure_header() << '\n';
   for (const StudyRun& run : runs) {
+    if (!run.scene.empty())
+      out << '"' << run.scene << "\",";
     for (const Setting& setting : run.settings)
       out << (setting.value.find(',') == std::string::npos ? setting.value
                                                            : '"' + setting.value + '"')
@@ -134,7 +143,10 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
     out << run.is_solved() << ',';
     if (run.published_steps)
       out << *run.published_steps;
-    out << ",\"" << run.reference << '"';
+    std::string failure = run.failure;
+    std::replace(failure.begin(), failure.end(), '"', '\'');
+    std::replace(failure.begin(), failure.end(), '\n', ' ');
+    out << ",\"" << run.reference << "\",\"" << failure << '"';
     for (const std::string& name : figure_names()) {
       out << ',';
       if (const auto figure = run.figure(name))
@@ -165,8 +177,11 @@ std::vector<StudyRun> read_study_csv(const std::filesystem::path& file) {
         run.figures[*name] = std::strtod(field.c_str(), nullptr);
       end = comma;
     }
-    const auto quote = line.rfind('"', end - 2);
-    run.reference = line.substr(quote + 1, end - quote - 2);
+    for (std::string* const text : {&run.failure, &run.reference}) {
+      const auto quote = line.rfind('"', end - 2);
+      *text = line.substr(quote + 1, end - quote - 2);
+      end = quote - 1;
+    }
     runs.push_back(std::move(run));
   }
   return runs;

@@ -13,9 +13,9 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   using Json = nlohmann::ordered_json;
   Json json;
   json["program"] = version_text();
-  json["scene"] = {{"inner_radius", scene.inner_radius},
-                   {"outer_radius", scene.outer_radius},
-                   {"angular_velocity", scene.angular_velocity},
+  json["scene"] = {{"inner_radius", parameters.cylinder.inner_radius},
+                   {"outer_radius", parameters.cylinder.outer_radius},
+                   {"angular_velocity", parameters.cylinder.angular_velocity},
                    {"road_distance", parameters.road.distance},
                    {"radial_force", parameters.cylinder.radial_force},
                    {"zone_begin", scene.zone_begin},
@@ -66,7 +66,8 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   json["residuals"] = {{"equilibrium", result.residuals.equilibrium},
                        {"penetration", result.residuals.penetration},
                        {"negative_pressure", result.residuals.negative_pressure},
-                       {"complementarity", result.residuals.complementarity}};
+                       {"complementarity", result.residuals.complementarity},
+                       {"round_off", result.residuals.round_off}};
 
   for (const CycleFigures& cycle : result.cycles)
     json["cycles"].push_back(

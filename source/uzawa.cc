@@ -34,13 +34,14 @@ RhoBounds rho_bounds(StiffnessSolver& solver, const ContactProblem& problem,
   const RhoBounds bounds = rho_bounds(solver, problem, settings);
   std::ostringstream message;
   message << "Uzawa's method " << (rho < bounds.safe ? "stagnates" : "diverges")
-          << " with rho = " << rho << ": in " << steps << " steps its residual fell to " << reached
-          << ", wanted " << settings.tolerance << "; ";
+          << " with rho = " << rho / problem.unit << ": in " << steps
+          << " steps its residual fell to " << reached << ", wanted " << settings.tolerance << "; ";
   if (rho < bounds.safe)
     message << "raise Contact/Tolerance above round-off";
   else
-    message << "lower Contact/Rho: the largest rho that can converge is " << bounds.largest
-            << ", and every rho below " << bounds.safe << " does";
+    message << "lower Contact/Rho: the largest rho that can converge is "
+            << bounds.largest / problem.unit << ", and every rho below "
+            << bounds.safe / problem.unit << " does";
   throw NotSolved(message.str());
 }
 
@@ -80,7 +81,7 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
   const unsigned int n = problem.size();
   const std::vector<bool> none(n, false);
   const double rho = settings.rho
-                         ? *settings.rho
+                         ? *settings.rho * problem.unit
                          : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
 
   ContactSolution solution;
@@ -141,8 +142,9 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
   }
   std::ostringstream message;
   message << "Uzawa's method has not reached the tolerance " << settings.tolerance << " after "
-          << settings.most_steps << " steps with rho = " << rho << ": the residual is "
-          << solution.history.back().residual << "; raise Contact/Rho or Contact/Most steps";
+          << settings.most_steps << " steps with rho = " << rho / problem.unit
+          << ": the residual is " << solution.history.back().residual
+          << "; raise Contact/Rho or Contact/Most steps";
   throw NotSolved(message.str());
 }
 

@@ -22,17 +22,20 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Param
   const double narrow = std::min(left, right);
   if (narrow <= 0)
     return {};
-  const ExactSolution exact =
-      solve_exactly({scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-                     parameters.road.distance, scene.uniform_force.value_or(0), narrow});
+  const ExactSolution exact = solve_exactly(
+      {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
+       parameters.road.distance / scene.unit, scene.uniform_force.value_or(0), narrow});
   if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
     return {};
   return exact;
 }
 
-void report_verification(std::ostream& out, const Result& result, const ExactSolution& exact) {
+void report_verification(std::ostream& out, const Scene& scene, const Result& result,
+                         const ExactSolution& exact) {
+  const double length = scene.unit, area = length * length;
   TableHandler table;
-  const auto add = [&](const std::string& name, double ours, double theirs, double accuracy) {
+  const auto add = [&](const std::string& name, double unit, double ours, double theirs,
+                       double accuracy) {
     const auto number = [](double value, int digits) {
       std::ostringstream text;
       text.precision(digits);
@@ -40,26 +43,26 @@ void report_verification(std::ostream& out, const Result& result, const ExactSol
       return text.str();
     };
     table.add_value("quantity", name);
-    table.add_value("computed", number(ours, 12));
-    table.add_value("exact", number(theirs, 12));
-    table.add_value("difference", number(ours - theirs, 3));
+    table.add_value("computed", number(ours * unit, 12));
+    table.add_value("exact", number(theirs * unit, 12));
+    table.add_value("difference", number((ours - theirs) * unit, 3));
     table.add_value("relative", theirs == 0 ? "-" : number(ours / theirs - 1, 3));
     table.add_value("exact to", accuracy > 0 ? number(accuracy, 1) : "-");
   };
-  add("force F", result.patch.force, exact.force, exact.force_accuracy);
-  add("energy J", result.energy.value, exact.energy, exact.energy_accuracy);
-  add("a(u, u)", result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width", result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
-  add("peak pressure", result.patch.peak_pressure, exact.peak_pressure, 0);
+  add("force F", length, result.patch.force, exact.force, exact.force_accuracy);
+  add("energy J", area, result.energy.value, exact.energy, exact.energy_accuracy);
+  add("a(u, u)", area, result.energy.norm_squared, exact.norm_squared, 0);
+  add("half-width", 1, result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
+  add("peak pressure", 1, result.patch.peak_pressure, exact.peak_pressure, 0);
   out << "\nVerification against the semi-analytic solution\n";
   table.write_text(out, TableHandler::table_with_headers);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";
-  if (result.errors)
-    out << "Error in the energy norm " << result.errors->energy_norm << ", relative "
-        << result.errors->relative_energy_norm << "; in L2 " << result.errors->l2_norm
-        << ", of the pressure in L2 " << result.errors->pressure << '\n';
+  if (const auto errors = to_lengths(result, length).errors)
+    out << "Error in the energy norm " << errors->energy_norm << ", relative "
+        << errors->relative_energy_norm << "; in L2 " << errors->l2_norm
+        << ", of the pressure in L2 " << errors->pressure << '\n';
 }
 
 } // namespace rollwave

@@ -103,11 +103,52 @@ TEST(Scene, RoadTouchesTheDeformedCylinderAtItsDistance) {
     EXPECT_NEAR((2 + phi(z)) * std::sin(z), -1.5, 1e-14);
 }
 
-TEST(Scene, ZoneIsWhereTheRoadIsNearerThanTheOuterRadius) {
+TEST(Scene, NothingCancelsInARoadThatIsHardlyTouched) {
+  // phi at x = 1e-6 from the lowest point is -1e-14 + x^2/2; 3 pi/2 is 1.8e-16 more than its
+  // double.
+  const double distance = 1 - 1e-14;
+  const auto phi = flat_road(1, distance);
+  EXPECT_NEAR(phi(3 * M_PI / 2) / (distance - 1), 1, 1e-14);
+  const double z = 3 * M_PI / 2 + 1e-6, x = (z - 3 * M_PI / 2) - 1.8369701987210297e-16;
+  EXPECT_NEAR(phi(z) / (distance - 1 + distance * x * x / 2), 1, 1e-11);
+  EXPECT_NEAR(flat_road_slope(distance)(z) / (distance * x), 1, 1e-11);
+}
+
+TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
+  const Scene scene =
+      make_scene(parameters_of({"Cylinder/Outer radius=2", "Road/Distance=1.7",
+                                "Cylinder/Angular velocity=0.1", "Cylinder/Radial force=0.1*r"}));
+  EXPECT_NEAR(scene.road(scene.zone_begin) * scene.unit, 2, 1e-13);
+  EXPECT_NEAR(scene.road(scene.zone_end) * scene.unit, 2, 1e-13);
+}
+
+TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
+  for (const char* const force : {"0", "0.3", "-0.05"}) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Angular cells=100", std::string("Cylinder/Radial force=") + force});
+    const Scene scene = make_scene(parameters);
+    const double f = std::stod(force);
+    const double free = f * (-0.1875 + std::log(2.) / 2);
+    const double two_cells = 4 * M_PI / 100;
+    EXPECT_NEAR(scene.road(scene.zone_begin + two_cells), free, 1e-14);
+    EXPECT_NEAR(scene.road(scene.zone_end - two_cells), free, 1e-14);
+  }
+  // Where it would be wider than where phi < b, it is not.
+  const Scene bulging = make_scene(parameters_of({"Cylinder/Radial force=1e8"}));
+  EXPECT_NEAR(bulging.road(bulging.zone_begin), 1, 1e-14);
+}
+
+TEST(Scene, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
   const Scene scene = make_scene(parameters_of(
-      {"Cylinder/Outer radius=2", "Road/Distance=1.7", "Cylinder/Angular velocity=0.1"}));
-  EXPECT_NEAR(scene.road(scene.zone_begin), 2, 1e-13);
-  EXPECT_NEAR(scene.road(scene.zone_end), 2, 1e-13);
+      {"Cylinder/Inner radius=3e-150", "Cylinder/Outer radius=5e-150",
+       "Cylinder/Angular velocity=1e149", "Road/Distance=4e-150", "Cylinder/Radial force=1e150"}));
+  EXPECT_GE(scene.outer_radius, 1);
+  EXPECT_LT(scene.outer_radius, 2);
+  int exponent = 0;
+  EXPECT_EQ(std::frexp(scene.unit, &exponent), 0.5);
+  EXPECT_EQ(scene.inner_radius * scene.unit, 3e-150);
+  EXPECT_EQ(scene.angular_velocity / scene.unit, 1e149);
+  EXPECT_EQ(scene.force(1, 0) / scene.unit, 1e150);
 }
 
 TEST(Scene, ForceIsAnExpressionInRAndZ) {

@@ -1,0 +1,191 @@
+// Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
+#include "errors.h"
+#include "test_scenes.h"
+#include "verification.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+
+using namespace rollwave;
+
+namespace {
+
+/// Numbers from a fixed seed.
+class Draw {
+public:
+  explicit Draw(unsigned int seed) : random(seed) {}
+
+  double from(double low, double high) { return low + (high - low) * unit(random); }
+  double power_of_ten(double low, double high) { return std::pow(10., from(low, high)); }
+  unsigned int below(unsigned int n) { return std::min<unsigned int>(n * unit(random), n - 1); }
+
+private:
+  std::mt19937 random;
+  std::uniform_real_distribution<double> unit{0, 1};
+};
+
+std::string assignment(const char* key, double value) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%s=%.17g", key, value);
+  return text;
+}
+
+/// A scene and a mesh of at most some thousand unknowns.
+std::vector<std::string> draw_scene(Draw& draw) {
+  const double b = draw.below(2) ? draw.power_of_ten(-150, 150) : 1;
+  const double thickness = draw.below(3) ? draw.from(0.1, 0.9) : draw.power_of_ten(-6, -1);
+  const double a = draw.below(4) ? b * (1 - thickness) : b * draw.power_of_ten(-6, -1);
+  double speed = draw.from(0, 1);
+  switch (draw.below(4)) {
+  case 0:
+    speed = 1;
+    break;
+  case 1:
+    speed = 1 - draw.power_of_ten(-16, -1);
+    break;
+  case 2:
+    speed = 0;
+  }
+  double c = b - (b - a) * draw.from(0, 1);
+  switch (draw.below(5)) {
+  case 0:
+    c = b - (b - a) * draw.power_of_ten(-14, 0);
+    break;
+  case 1:
+    c = a + (b - a) * draw.power_of_ten(-14, 0);
+    break;
+  case 2:
+    c = draw.from(0.9, 2) * b;
+  }
+  std::vector<std::string> scene = {
+      assignment("Cylinder/Outer radius", b), assignment("Cylinder/Inner radius", a),
+      assignment("Cylinder/Angular velocity", speed / b), assignment("Road/Distance", c)};
+  switch (draw.below(4)) {
+  case 0:
+    scene.push_back(assignment("Cylinder/Radial force",
+                               (draw.below(2) ? 1 : -1) * draw.power_of_ten(-3, 8) / b));
+    break;
+  case 1:
+    scene.push_back("Cylinder/Radial force=" + assignment("", draw.from(-1, 1) / b).substr(1) +
+                    "*cos(2*z+1)*r/" + assignment("", b).substr(1));
+  }
+  if (draw.below(4) == 0) {
+    const double begin = draw.from(3.15, 6.2), end = draw.from(begin, 6.28);
+    scene.push_back(assignment("Road/Contact zone", begin) + ", " + assignment("", end).substr(1));
+  }
+  const unsigned int degree = 1 + draw.below(3);
+  scene.push_back("Mesh/Degree=" + std::to_string(degree));
+  scene.push_back("Mesh/Radial cells=" + std::to_string(1 + draw.below(12 / degree)));
+  scene.push_back("Mesh/Angular cells=" + std::to_string(3 + draw.below(120 / degree)));
+  return scene;
+}
+
+std::string text_of(const std::vector<std::string>& scene) {
+  std::string text;
+  for (const std::string& setting : scene)
+    text += " --set '" + setting + "'";
+  return text;
+}
+
+struct Counts {
+  unsigned int solved = 0, short_of_accuracy = 0, bad_input = 0, not_solved = 0, compared = 0;
+};
+
+/// J and F of the exact solution lie within the certificate, where there is one.
+bool compare_with_exact(const Scene& scene, const Parameters& parameters, const Result& result) {
+  const auto exact = find_exact_solution(scene, parameters);
+  if (!exact)
+    return false;
+  const CertifiedError& certified = *result.certified;
+  const double slack =
+      10 * exact->energy_accuracy * (std::abs(exact->energy) + exact->norm_squared) +
+      1e-12 * (std::abs(exact->energy) + certified.norm_squared);
+  EXPECT_LE(certified.lower_bound, exact->energy + slack);
+  EXPECT_GE(certified.upper_bound, exact->energy - slack);
+  // F - F_h = -a(u - u_h, w) for every w of the mesh that is 1 on the surface: that which depends
+  // on r alone has a(w, w) of about 2 pi / ln(b/a), less than twice that if the cells are coarse.
+  const double depth = std::log1p((scene.outer_radius - scene.inner_radius) / scene.inner_radius);
+  const double radial_cells = parameters.mesh.radial_cells;
+  const double norm = std::sqrt(2 * M_PI * std::max(2 / depth, radial_cells));
+  // u_h is farther from v than the certificate knows by what v was moved, no more than its error.
+  EXPECT_LE(std::abs(result.patch.force - exact->force),
+            2 * norm * certified.energy_norm + 10 * exact->force_accuracy * std::abs(exact->force) +
+                1e-12 * norm * std::sqrt(certified.norm_squared));
+  return true;
+}
+
+/// Roads farther away leave less contact on the same mesh: with d between them, J is convex in the
+/// distance, its slope -G grows.
+void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters& parameters,
+                                Solution nearest) {
+  const double c = parameters.road.distance / scene.unit;
+  // Not less than what distances resolve.
+  const double step = std::max(draw.power_of_ten(-3, -1) * std::abs(scene.outer_radius - c), 1e-12);
+  std::vector<Result> results = {nearest.result};
+  Solution solution = std::move(nearest);
+  for (const int i : {1, 2}) {
+    Scene farther = scene;
+    farther.road = flat_road(scene.outer_radius, c + i * step);
+    farther.road_slope = flat_road_slope(c + i * step);
+    solution = simulate_next(farther, parameters, std::move(solution));
+    results.push_back(solution.result);
+  }
+  const double energy = results[0].energy.norm_squared + std::abs(results[0].energy.value);
+  EXPECT_GE(results[0].energy.value - 2 * results[1].energy.value + results[2].energy.value,
+            -1e-10 * energy);
+  for (const int i : {0, 1}) {
+    const ContactPatch &near = results[i].patch, &far = results[i + 1].patch;
+    const double size = 1e-9 * std::abs(results[0].patch.work_conjugate_load);
+    EXPECT_LE(far.work_conjugate_load, near.work_conjugate_load + size);
+    // E(c) - E(c + d) lies between d G at both ends.
+    const double fall = results[i].energy.value - results[i + 1].energy.value;
+    EXPECT_LE(fall, step * near.work_conjugate_load + 1e-10 * energy);
+    EXPECT_GE(fall, step * far.work_conjugate_load - 1e-10 * energy);
+  }
+}
+
+TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
+  const char* const wanted = std::getenv("ROLLWAVE_RANDOM_SCENES");
+  const unsigned int n_scenes = wanted ? std::atoi(wanted) : 300;
+  Draw draw(20);
+  Counts counts;
+  for (unsigned int i = 0; i < n_scenes; ++i) {
+    const std::vector<std::string> settings = draw_scene(draw);
+    SCOPED_TRACE("scene " + std::to_string(i) + text_of(settings));
+    try {
+      const Parameters parameters = parameters_of(settings);
+      const Scene scene = make_scene(parameters);
+      Solution solution = simulate_next(scene, parameters, {});
+      const Result& result = solution.result;
+      if (!result.shortfall.empty()) {
+        ++counts.short_of_accuracy;
+        EXPECT_GT(result.residuals.round_off, 1e-13) << "it could have been solved better";
+      } else {
+        ++counts.solved;
+        EXPECT_LE(result.residuals.largest(), wanted_residual);
+      }
+      EXPECT_LE(result.certified->lower_bound, result.certified->upper_bound);
+      if (i % 12 == 0)
+        counts.compared += compare_with_exact(scene, parameters, result);
+      compare_with_farther_roads(draw, scene, parameters, std::move(solution));
+    } catch (const BadInput& refusal) {
+      ++counts.bad_input;
+      EXPECT_GT(std::string(refusal.what()).size(), 20u);
+    } catch (const NotSolved& failure) {
+      ++counts.not_solved;
+      EXPECT_GT(std::string(failure.what()).size(), 20u);
+    }
+    if (HasFatalFailure())
+      return;
+  }
+  std::printf("%u scenes: %u solved (%u compared with the exact answer), %u solved to less than "
+              "the wanted residual, %u refused as bad input, %u not solved\n",
+              n_scenes, counts.solved, counts.compared, counts.short_of_accuracy, counts.bad_input,
+              counts.not_solved);
+}
+
+} // namespace
