@@ -1,5 +1,6 @@
 // Every value a key admits is read, everything else is refused in one message with all that helps.
 #include "errors.h"
+#include "floating_point.h"
 #include "parameters.h"
 #include "scene.h"
 #include "test_scenes.h"
@@ -62,6 +63,7 @@ TEST(Parameters, MessagesTellPlaceKeyValueAndWhatIsWanted) {
 class RefusedSetting : public testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedSetting, IsBadInput) {
+  const UntrappedFloatingPoint force_may_be_infinite;
   EXPECT_THROW(make_scene(parameters_of({GetParam()})), BadInput);
 }
 
@@ -185,6 +187,7 @@ TEST(Parameters, RefuseAMeshBeyondTheWantedSize) {
 }
 
 TEST(Parameters, RefuseAForceThatIsNotFinite) {
+  const UntrappedFloatingPoint force_is_infinite;
   const Parameters parameters = parameters_of({"Cylinder/Radial force=1/(r - 0.6)^2 + log(z - 3)"});
   EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
 }
