@@ -7,15 +7,17 @@ usage() {
   cat <<'TEXT'
 Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: prm/figure-4.prm)
        ./bootstrap.sh test [OPTIONS of ctest]
+       ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
 
-Each installs the Debian packages that are missing, builds in ./build, and runs.
+Each installs the Debian packages that are missing, builds in ./build (sanitize: ./build-sanitize),
+and runs.
 TEXT
 }
 
 program_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
   nlohmann-json3-dev gnuplot-nox)
-test_packages=(libgtest-dev python3-vtk9)
+test_packages=(libgtest-dev python3-vtk9 clang libclang-rt-dev)
 
 install_missing() {
   local missing=() package
@@ -32,10 +34,12 @@ install_missing() {
     --no-install-recommends "${missing[@]}" >/dev/null
 }
 
+# build TARGET [DIRECTORY] [OPTIONS of cmake]
 build() {
+  local target=$1 directory=${2:-build}
   # With tests or without, the objects of the program are the same and stay.
-  cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING="$1" >build.log 2>&1 &&
-    cmake --build build --target "$2" >>build.log 2>&1 || {
+  cmake -S . -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release "${@:3}" >build.log 2>&1 &&
+    cmake --build "$directory" --target "$target" >>build.log 2>&1 || {
     cat build.log >&2
     exit 1
   }
@@ -46,19 +50,25 @@ case "${1:-}" in
 run)
   shift
   install_missing "${program_packages[@]}"
-  build OFF rollwave
+  build rollwave build -DBUILD_TESTING=OFF
   [ $# -gt 0 ] || set -- prm/figure-4.prm
   exec build/rollwave "$@"
   ;;
 test)
   shift
   install_missing "${program_packages[@]}" "${test_packages[@]}"
-  build ON all
+  build all build -DBUILD_TESTING=ON
   exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
+  ;;
+sanitize)
+  shift
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build all build-sanitize -DROLLWAVE_SANITIZE=ON
+  exec ctest --test-dir build-sanitize --output-on-failure -j "$(nproc)" "$@"
   ;;
 benchmark)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
-  build ON all
+  build all build -DBUILD_TESTING=ON
   build/tests/rollwave_benchmark
   exec build/tests/rollwave_phases
   ;;

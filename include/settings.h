@@ -2,6 +2,7 @@
 #define ROLLWAVE_SETTINGS_H
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,32 @@ struct Setting {
 };
 
 /**
- * The assignments of a parameter file, in its order. The grammar is that of deal.II's
- * ParameterHandler (`subsection`, `set KEY = VALUE`, `end`, `#` for comments, `\` at the end of a
- * line to continue it); reading it here keeps the line of every entry for later messages.
+ * The assignments of a parameter file, in its order; @p name is that of the file in messages. The
+ * grammar is that of deal.II's ParameterHandler (`subsection`, `set KEY = VALUE`, `end`, `#` for
+ * comments, `\` at the end of a line to continue it); reading it here keeps the line of every entry
+ * for later messages.
  *
- * @throws BadInput when the file cannot be read, has a line of another form, unbalanced
- *         subsections, or sets a key twice.
+ * @throws BadInput when the file cannot be read or is longer than 1 MiB, has a line of another
+ *         form, unbalanced subsections, or sets a key twice.
  */
+std::vector<Setting> read_settings(std::istream& in, const std::string& name);
+
+/// The same of the file at a path.
 std::vector<Setting> read_settings(const std::filesystem::path& file);
 
 /// The assignment in "Section/Key=value". @throws BadInput when @p text has another form.
 Setting parse_setting(const std::string& text, const std::string& origin);
+
+/// Whether a parameter file can hold @p value and gives it back unchanged: without comment, line
+/// end or repeated white space in it, nor a continuation at its end.
+bool is_writable(const std::string& value);
+
+/// @p text for a message: at most 200 bytes of it, without the control characters by which a file
+/// of another kind would disturb a terminal.
+std::string printable(const std::string& text);
+
+/// printable(text) in quotation marks.
+std::string in_quotes(const std::string& text);
 
 /// @p text without white space at both ends.
 std::string trimmed(const std::string& text);

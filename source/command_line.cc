@@ -44,9 +44,10 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
     else if (*argument == "--set")
       line.settings.push_back(parse_setting(option_value(), "--set"));
     else if (argument->size() > 1 && argument->front() == '-')
-      throw BadInput("unknown option " + *argument + "; see rollwave --help");
+      throw BadInput("unknown option " + printable(*argument) + "; see rollwave --help");
     else if (!line.file.empty())
-      throw BadInput("one parameter file at a time: " + line.file.string() + " or " + *argument);
+      throw BadInput("one parameter file at a time: " + printable(line.file.string()) + " or " +
+                     printable(*argument));
     else
       line.file = *argument;
   }

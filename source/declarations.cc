@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -12,14 +13,11 @@ namespace rollwave {
 using namespace dealii;
 
 double to_number(const std::string& text) {
-  std::size_t length = 0;
+  const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const end = text.data() + text.size();
   double value = 0;
-  try {
-    value = std::stod(text, &length);
-  } catch (const std::out_of_range&) {
-    throw std::invalid_argument(text);
-  }
-  if (length == 0 || length != text.size() || !std::isfinite(value))
+  const auto [rest, error] = std::from_chars(text.data() + has_plus, end, value);
+  if (error != std::errc() || rest != end || !(value == 0 || std::isnormal(value)))
     throw std::invalid_argument(text);
   return value;
 }
@@ -32,7 +30,8 @@ unsigned int to_count(const std::string& text, unsigned int least, unsigned int 
 }
 
 std::string place(const Setting& setting) {
-  return setting.origin + ": section \"" + setting.section + "\", key \"" + setting.key + "\"";
+  return setting.origin + ": section " + in_quotes(setting.section) + ", key " +
+         in_quotes(setting.key);
 }
 
 void Declarations::enter(const std::string& name) {
@@ -105,10 +104,12 @@ unsigned int edit_distance(const std::string& from, const std::string& to) {
 
 /// The message for a setting without a declared key: the nearest keys, then all of its section.
 std::string Declarations::unknown_key(const Setting& setting) const {
+  // What is longer than every key is far from all of them, and the more the longer to compare.
+  const std::string named_section = printable(setting.section), named_key = printable(setting.key);
   std::multimap<unsigned int, std::string> nearest;
   for (const auto& [section, entries] : texts)
     for (const auto& [key, text] : entries)
-      nearest.emplace(edit_distance(setting.key, key) + edit_distance(setting.section, section),
+      nearest.emplace(edit_distance(named_key, key) + edit_distance(named_section, section),
                       section + "/" + key);
   std::string message = place(setting) + ": there is no such key; the nearest known: ";
   auto candidate = nearest.begin();
@@ -133,12 +134,17 @@ void Declarations::apply(const std::vector<Setting>& settings) const {
                      [&setting](const auto& candidate) { return candidate.first == setting.key; });
     if (entry == section->second.end())
       throw BadInput(unknown_key(setting));
+    if (!is_writable(setting.value))
+      throw BadInput(
+          place(setting) + ", value " + in_quotes(setting.value) +
+          " cannot be written into a parameter file: it has a \"#\", a \"\\\" at its end "
+          "or several blanks in a row");
     prm.enter_subsection(setting.section);
     try {
       prm.set(setting.key, setting.value);
     } catch (const std::exception&) {
-      throw BadInput(place(setting) + ", value \"" + setting.value +
-                     "\" is not admitted. The key: " + entry->second);
+      throw BadInput(place(setting) + ", value " + in_quotes(setting.value) +
+                     " is not admitted. The key: " + entry->second);
     }
     prm.leave_subsection();
   }

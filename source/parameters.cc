@@ -22,14 +22,22 @@ std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
   return std::pair(to_number(ends[0]), to_number(ends[1]));
 }
 
+/// A study lists all of its combinations before it begins.
+constexpr unsigned int most_varied_keys = 20;
+constexpr unsigned int most_runs = 100000;
+
 std::vector<std::vector<Setting>> parse_vary(const std::string& text) {
   std::vector<std::vector<Setting>> vary;
+  double n_runs = 1;
   for (const std::string& part : split(text, ';')) {
     const Setting all = parse_setting(part, "Study/Vary");
     vary.emplace_back();
     for (const std::string& value : split(all.value, '|'))
       vary.back().push_back({all.section, all.key, value, all.origin});
-    if (all.section == "Study" || vary.back().empty())
+    n_runs *= vary.back().size();
+    const auto is_same_key = [&all](const auto& list) { return list[0].path() == all.path(); };
+    if (all.section == "Study" || vary.back().empty() || vary.size() > most_varied_keys ||
+        n_runs > most_runs || std::any_of(vary.begin(), vary.end() - 1, is_same_key))
       throw std::invalid_argument(text);
   }
   return vary;
@@ -206,7 +214,7 @@ void declare(Declarations& keys, Parameters& p) {
       "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest.");
+      "varies fastest. At most 20 keys, each once, in at most 100000 combinations.");
   keys.add(
       "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
@@ -264,7 +272,7 @@ std::string refusal(const std::vector<Setting>& settings, const std::string& sec
   });
   if (last == settings.rend())
     return place({section, key, "", "default value"}) + ": " + wanted;
-  return place(*last) + ", value \"" + last->value + "\": " + wanted;
+  return place(*last) + ", value " + in_quotes(last->value) + ": " + wanted;
 }
 
 void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {

@@ -84,7 +84,7 @@ struct RadialModes::Samples {
   std::array<double, n_points> exponent; ///< int_y^(ln b) theta
   double theta_at_surface;
   double largest_exponent; ///< from the hub to the surface
-  double q;                ///< int_(ln a)^(ln b) dy / g^2
+  double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
 };
 
 RadialModes::RadialModes(double inner_radius, double outer_radius, double angular_velocity)
@@ -119,8 +119,13 @@ RadialModes::Samples RadialModes::sample(double k) const {
       exponent += rule.to_the_right[i][j] * theta[j];
     samples.exponent[i] = exponent * depth / 2;
     samples.largest_exponent += rule.weight[i] * theta[i] * depth / 2;
-    samples.q += rule.weight[i] * depth / 2 * std::exp(2 * samples.exponent[i]);
   }
+  if (samples.largest_exponent >= negligible_exponent) {
+    samples.q = std::numeric_limits<double>::infinity();
+    return samples;
+  }
+  for (int i = 0; i < n_points; ++i)
+    samples.q += rule.weight[i] * depth / 2 * std::exp(2 * samples.exponent[i]);
   return samples;
 }
 
@@ -140,8 +145,6 @@ double RadialModes::computed_compliance(double k) const {
   if (!hub_matters(k))
     return compliance_without_hub(k);
   const Samples samples = sample(k);
-  if (samples.largest_exponent > negligible_exponent)
-    return b / samples.theta_at_surface;
   return b / (samples.theta_at_surface + 1 / samples.q);
 }
 
@@ -179,7 +182,7 @@ RadialModes::Profile RadialModes::profile(double k, const std::vector<double>& r
 
   const SpectralIntegration& rule = spectral_integration();
   const Samples samples = sample(k);
-  const bool has_hub = samples.largest_exponent < negligible_exponent;
+  const bool has_hub = std::isfinite(samples.q);
   // int_y^(ln b) dy / g^2 at the points
   std::array<double, n_points> q_to_the_right;
   for (int i = 0; i < n_points && has_hub; ++i) {

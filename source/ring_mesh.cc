@@ -1,6 +1,7 @@
 #include "ring_mesh.h"
 
 #include "errors.h"
+#include "memory.h"
 #include "parameters.h"
 #include "scene.h"
 
@@ -13,6 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
+#include <sstream>
+#include <string>
 #include <vector>
 
 namespace rollwave {
@@ -86,6 +90,13 @@ std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
   return radii;
 }
 
+/// All digits where they are exact.
+std::string count_text(double count) {
+  std::ostringstream text;
+  text << std::setprecision(count < 1e15 ? 15 : 3) << count;
+  return text.str();
+}
+
 } // namespace
 
 std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters) {
@@ -94,9 +105,12 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
                           mesh.radial_cells * mesh.angular_cells;
   if (unknowns > mesh.most_unknowns)
     throw BadInput(refusal(parameters.settings, "Mesh", "Most unknowns",
-                           "the mesh would have " + std::to_string(std::llround(unknowns)) +
+                           "the mesh would have " + count_text(unknowns) +
                                " unknowns; allow more, or ask for fewer cells, refinements or a "
                                "lower degree"));
+
+  // What the cells alone occupy at least, whatever is solved on them.
+  require_memory(200. * unknowns / (mesh.degree * mesh.degree), "the mesh");
 
   auto triangulation =
       std::make_unique<Triangulation<2>>(Triangulation<2>::limit_level_difference_at_vertices);

@@ -1,6 +1,7 @@
 #include "scene.h"
 
 #include "contact_free.h"
+#include "declarations.h"
 #include "errors.h"
 #include "parameters.h"
 
@@ -8,7 +9,6 @@
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -128,15 +128,43 @@ private:
 
 /// f when it is given as a number.
 std::optional<double> constant_force(const Parameters& parameters) {
-  const std::string& expression = parameters.cylinder.radial_force;
-  char* end = nullptr;
-  const double number = std::strtod(expression.c_str(), &end);
-  return *end == '\0' && std::isfinite(number) ? std::optional(number) : std::nullopt;
+  try {
+    return to_number(parameters.cylinder.radial_force);
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+/// Why @p expression is no function of r and z although the parser would give it a value: of "1,5"
+/// the last part, 5. Empty where it would not.
+std::string misunderstanding(const std::string& expression) {
+  int depth = 0;
+  for (std::size_t i = 0; i < expression.size(); ++i) {
+    const char c = expression[i];
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (c == ',' && depth == 0)
+      return "A comma separates the arguments of a function; decimals have a point.";
+    const bool is_comparison =
+        expression.compare(i, 2, "==") == 0 ||
+        (i > 0 && std::string("=<>!").find(expression[i - 1]) != std::string::npos);
+    if (c == '=' && !is_comparison)
+      return "r and z cannot be assigned to.";
+  }
+  return expression.find("rand") == std::string::npos
+             ? ""
+             : "A random number is no function of r and z.";
 }
 
 /// f as a function of r and z.
 std::function<double(double, double)> parse_force(const Parameters& parameters) {
   const std::string& expression = parameters.cylinder.radial_force;
+  const auto refuse = [&](const std::string& why) {
+    throw BadInput(
+        refusal(parameters.settings, "Cylinder", "Radial force",
+                "it must be an expression in r and z, as in 1 + 0.5*r*cos(z). " + printable(why)));
+  };
+  if (const std::string why = misunderstanding(expression); !why.empty())
+    refuse(why);
   auto parser = std::make_shared<FunctionParser<2>>(1);
   const auto force = [parser](double r, double z) { return parser->value(Point<2>(r, z)); };
   double middle = 0;
@@ -146,9 +174,7 @@ std::function<double(double, double)> parse_force(const Parameters& parameters) 
     middle = force((parameters.cylinder.inner_radius + parameters.cylinder.outer_radius) / 2,
                    numbers::PI);
   } catch (const std::exception&) {
-    throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",
-                           "it must be an expression in r and z, as in 1 + 0.5*r*cos(z). " +
-                               captured.line_after("Message:")));
+    refuse(captured.line_after("Message:"));
   }
   if (!std::isfinite(middle))
     throw BadInput(refusal(parameters.settings, "Cylinder", "Radial force",

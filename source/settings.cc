@@ -2,11 +2,26 @@
 
 #include "errors.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 namespace rollwave {
+
+std::string printable(const std::string& text) {
+  constexpr std::size_t longest = 200;
+  std::string shown = text.size() <= longest ? text : text.substr(0, longest) + "...";
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
+  return shown;
+}
+
+std::string in_quotes(const std::string& text) {
+  return '"' + printable(text) + '"';
+}
 
 std::string trimmed(const std::string& text) {
   const char* const white = " \t\r\n\v\f";
@@ -40,6 +55,22 @@ std::string folded(const std::string& text) {
   return result;
 }
 
+/// All of @p in. What never ends, such as a device, shall not fill the memory.
+std::string read_all(std::istream& in, const std::string& name) {
+  constexpr std::size_t longest = 1 << 20;
+  std::string text;
+  std::array<char, 4096> block;
+  while (in) {
+    in.read(block.data(), block.size());
+    text.append(block.data(), in.gcount());
+    if (text.size() > longest)
+      throw BadInput(name + ": this is no parameter file, it is longer than 1 MiB");
+  }
+  if (in.bad())
+    throw BadInput(name + ": this parameter file cannot be read");
+  return text;
+}
+
 /// The next line with its continuations, without comment; advances @p line_number.
 bool next_statement(std::istream& in, unsigned& line_number, std::string& statement) {
   statement.clear();
@@ -70,23 +101,25 @@ bool follows(const std::string& statement, const std::string& keyword, std::stri
 
 } // namespace
 
-std::vector<Setting> read_settings(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
-    throw BadInput(file.string() + ": this parameter file cannot be read");
+bool is_writable(const std::string& value) {
+  return value == folded(value) && value.find('#') == std::string::npos &&
+         (value.empty() || value.back() != '\\');
+}
 
+std::vector<Setting> read_settings(std::istream& file, const std::string& name) {
+  std::istringstream in(read_all(file, name));
   std::vector<Setting> settings;
   std::map<std::string, std::string> seen;
   std::string section, statement, rest, opened_at;
   unsigned line_number = 0;
   while (next_statement(in, line_number, statement)) {
-    const std::string origin = file.string() + ", line " + std::to_string(line_number);
+    const std::string origin = name + ", line " + std::to_string(line_number);
     if (statement.empty())
       continue;
     if (follows(statement, "subsection", rest)) {
       if (!section.empty())
-        throw BadInput(origin + ": \"" + statement + "\" inside section \"" + section +
-                       "\"; close that one by \"end\" first");
+        throw BadInput(origin + ": " + in_quotes(statement) + " inside section " +
+                       in_quotes(section) + "; close that one by \"end\" first");
       if (rest.empty())
         throw BadInput(origin + ": a subsection needs a name");
       section = rest;
@@ -101,25 +134,31 @@ std::vector<Setting> read_settings(const std::filesystem::path& file) {
                             folded(rest.substr(equals + 1)), origin};
       const auto [earlier, is_first] = seen.emplace(setting.path(), origin);
       if (!is_first)
-        throw BadInput(origin + ": section \"" + section + "\", key \"" + setting.key +
-                       "\" is set a second time; it was set at " + earlier->second);
+        throw BadInput(origin + ": section " + in_quotes(section) + ", key " +
+                       in_quotes(setting.key) + " is set a second time; it was set at " +
+                       earlier->second);
       settings.push_back(setting);
     } else
-      throw BadInput(origin + ": \"" + statement +
-                     "\" is none of \"subsection NAME\", \"set KEY = VALUE\", \"end\"");
+      throw BadInput(origin + ": " + in_quotes(statement) +
+                     " is none of \"subsection NAME\", \"set KEY = VALUE\", \"end\"");
   }
-  if (in.bad())
-    throw BadInput(file.string() + ": reading stopped after line " + std::to_string(line_number));
   if (!section.empty())
-    throw BadInput(opened_at + ": section \"" + section + "\" is not closed by \"end\"");
+    throw BadInput(opened_at + ": section " + in_quotes(section) + " is not closed by \"end\"");
   return settings;
+}
+
+std::vector<Setting> read_settings(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file))
+    throw BadInput(file.string() + ": this parameter file cannot be read");
+  return read_settings(in, file.string());
 }
 
 Setting parse_setting(const std::string& text, const std::string& origin) {
   const auto equals = text.find('=');
   const auto slash = text.find('/');
   if (equals == std::string::npos || slash == std::string::npos || slash > equals)
-    throw BadInput(origin + ": \"" + text + "\" is not of the form \"Section/Key=value\"");
+    throw BadInput(origin + ": " + in_quotes(text) + " is not of the form \"Section/Key=value\"");
   return {trimmed(text.substr(0, slash)), trimmed(text.substr(slash + 1, equals - slash - 1)),
           folded(text.substr(equals + 1)), origin};
 }

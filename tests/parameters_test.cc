@@ -1,5 +1,6 @@
 // Every value a key admits is read, everything else is refused in one message with all that helps.
 #include "errors.h"
+#include "floating_point.h"
 #include "parameters.h"
 #include "scene.h"
 #include "test_scenes.h"
@@ -62,6 +63,7 @@ TEST(Parameters, MessagesTellPlaceKeyValueAndWhatIsWanted) {
 class RefusedSetting : public testing::TestWithParam<const char*> {};
 
 TEST_P(RefusedSetting, IsBadInput) {
+  const UntrappedFloatingPoint force_may_be_infinite;
   EXPECT_THROW(make_scene(parameters_of({GetParam()})), BadInput);
 }
 
@@ -70,21 +72,77 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         "Cylinder/Inner radius=0", "Cylinder/Inner radius=-1", "Cylinder/Inner radius=1",
         "Cylinder/Inner radius=nan", "Cylinder/Outer radius=inf", "Cylinder/Outer radius=1e400",
-        "Cylinder/Outer radius=1,0", "Cylinder/Outer radius=one",
-        "Cylinder/Outer radius=", "Cylinder/Angular velocity=-0.1",
-        "Cylinder/Angular velocity=1.0000001", "Cylinder/Angular velocity=nan",
-        "Cylinder/Radial force=", "Cylinder/Radial force=r*(", "Cylinder/Radial force=x",
-        "Cylinder/Radial force=1/0", "Cylinder/Radial force=nan", "Cylinder/Radial force=inf",
-        "Road/Distance=0", "Road/Distance=-0.8", "Road/Distance=0.5", "Road/Distance=2",
-        "Road/Distance=nan", "Road/Contact zone=3, 5", "Road/Contact zone=4, 6.3",
-        "Road/Contact zone=5, 4", "Road/Contact zone=4, 4", "Road/Contact zone=4",
-        "Road/Contact zone=4, 5, 6", "Road/Contact zone=4, nan", "Mesh/Degree=0", "Mesh/Degree=9",
-        "Mesh/Degree=1.5", "Mesh/Radial cells=0", "Mesh/Angular cells=2", "Mesh/Angular cells=-5",
-        "Mesh/Angular cells=1e30", "Mesh/Global refinements=-1", "Contact/Method=newton",
-        "Contact/Rho=0", "Contact/Rho=-1", "Contact/Rho=inf", "Contact/Tolerance=0",
-        "Contact/Tolerance=1", "Contact/Most steps=0", "Solver/Kind=magic",
-        "Study/Vary=Mesh/Degree", "Study/Vary=Degree = 1", "Study/Vary=Study/Vary = 1",
-        "Study/Published steps=1.5", "Output/Directory=", "Output/Files=everything"));
+        "Cylinder/Outer radius=1,0", "Cylinder/Outer radius=one", "Cylinder/Outer radius=",
+        "Cylinder/Angular velocity=-0.1", "Cylinder/Angular velocity=1.0000001",
+        "Cylinder/Angular velocity=nan", "Cylinder/Radial force=", "Cylinder/Radial force=r*(",
+        "Cylinder/Radial force=x", "Cylinder/Radial force=1/0", "Cylinder/Radial force=nan",
+        "Cylinder/Radial force=inf", "Road/Distance=0", "Road/Distance=-0.8", "Road/Distance=0.5",
+        "Road/Distance=2", "Road/Distance=nan", "Road/Contact zone=3, 5",
+        "Road/Contact zone=4, 6.3", "Road/Contact zone=5, 4", "Road/Contact zone=4, 4",
+        "Road/Contact zone=4", "Road/Contact zone=4, 5, 6", "Road/Contact zone=4, nan",
+        "Mesh/Degree=0", "Mesh/Degree=9", "Mesh/Degree=1.5", "Mesh/Radial cells=0",
+        "Mesh/Angular cells=2", "Mesh/Angular cells=-5", "Mesh/Angular cells=1e30",
+        "Mesh/Global refinements=-1", "Contact/Method=newton", "Contact/Rho=0", "Contact/Rho=-1",
+        "Contact/Rho=inf", "Contact/Tolerance=0", "Contact/Tolerance=1", "Contact/Most steps=0",
+        "Solver/Kind=magic", "Study/Vary=Mesh/Degree", "Study/Vary=Degree = 1",
+        "Study/Vary=Study/Vary = 1", "Study/Published steps=1.5",
+        "Output/Directory=", "Cylinder/Radial force=1,5", "Cylinder/Radial force=1,0e3",
+        "Cylinder/Radial force=r = 2", "Cylinder/Radial force=0*(z = r)",
+        "Cylinder/Radial force=rand()", "Cylinder/Radial force=1e400", "Cylinder/Outer radius=+-1",
+        "Cylinder/Outer radius=0x1", "Cylinder/Outer radius=1e-320", "Road/Contact zone=4,2, 5,5",
+        "Mesh/Angular cells=4294967295", "Mesh/Radial cells=18446744073709551617",
+        "Mesh/Global refinements=1000", "Study/Vary=Mesh/Degree = 1 | 2; Mesh/Degree = 3",
+        "Output/Directory=a#b", "Output/Directory=a\\", "Output/Files=everything"));
+
+TEST(Parameters, RefuseMoreRunsThanAListCanHold) {
+  std::string vary = "Study/Vary=";
+  for (const char* key : {"Cylinder/Inner radius", "Cylinder/Outer radius", "Road/Distance",
+                          "Mesh/Degree", "Mesh/Radial cells", "Mesh/Angular cells"})
+    vary += std::string(key) + " = 1 | 2 | 3 | 4 | 5 | 6 | 7; ";
+  EXPECT_NE(refusal_of(vary + "Contact/Rho = 1").find("at most 100000"), std::string::npos);
+  std::string single = "Study/Vary=K0/K = 1";
+  for (int i = 1; i < 1000; ++i)
+    single += "; K" + std::to_string(i) + "/K = 1";
+  EXPECT_NE(refusal_of(single).find("At most 20 keys"), std::string::npos);
+}
+
+TEST(Parameters, RefuseValuesThatAFileCannotHold) {
+  for (const char* directory : {"two  blanks", " front", "line\nline", "tab\tulator", "a#b", "a\\"})
+    EXPECT_THROW(read_parameters({{"Output", "Directory", directory, "--output"}}), BadInput)
+        << directory;
+}
+
+TEST(Parameters, RefuseTextsOfAnyLengthShortly) {
+  const std::string longest(1 << 20, '(');
+  EXPECT_LT(refusal_of("Cylinder/Radial force=" + longest).size(), 1000u);
+  EXPECT_LT(refusal_of("Cylinder/" + longest + "=1").size(), 1000u);
+  EXPECT_LT(refusal_of("Mesh/Degree=\x1b[2J" + longest).size(), 1000u);
+  EXPECT_EQ(refusal_of("Mesh/Degree=\x1b[2J").find('\x1b'), std::string::npos);
+  EXPECT_EQ(refusal_of("Cylinder/Radial force=\x1b[2J").find('\x1b'), std::string::npos);
+}
+
+TEST(Parameters, SayHowManyUnknownsWereTooMany) {
+  const auto refusal_of_mesh = [](const std::vector<std::string>& mesh) {
+    const Parameters parameters = parameters_of(mesh);
+    try {
+      simulate(make_scene(parameters), parameters);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string many = refusal_of_mesh({"Mesh/Radial cells=1000", "Mesh/Angular cells=5000"});
+  EXPECT_NE(many.find(" 20000000 unknowns"), std::string::npos) << many;
+  // (8 2^20)^2 (2^31 - 1)^2
+  const std::string largest =
+      refusal_of_mesh({"Mesh/Degree=8", "Mesh/Global refinements=20",
+                       "Mesh/Radial cells=2147483647", "Mesh/Angular cells=2147483647"});
+  EXPECT_NE(largest.find(" 3.25e+32 unknowns"), std::string::npos) << largest;
+  const std::string allowed =
+      refusal_of_mesh({"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=2147483647",
+                       "Mesh/Most unknowns=2147483647", "Road/Contact zone=4, 5"});
+  EXPECT_NE(allowed.find("GiB"), std::string::npos) << allowed;
+}
 
 TEST(Scene, AdmitsTheCriticalSpeedAndSaysWhatLiesBeyond) {
   // 1/0.3 as a user types it may be rounded to either side.
@@ -155,6 +213,13 @@ TEST(Scene, ForceIsAnExpressionInRAndZ) {
   const Scene scene = make_scene(parameters_of({"Cylinder/Radial force=r^2*cos(z) + pi"}));
   EXPECT_NEAR(scene.force(0.7, 2.), 0.49 * std::cos(2.) + M_PI, 1e-15);
   EXPECT_FALSE(make_scene(parameters_of({"Cylinder/Radial force=0.0"})).force);
+  EXPECT_EQ(make_scene(parameters_of({"Cylinder/Radial force=+1.5"})).uniform_force, 1.5);
+  // Commas within a function, and comparisons, are part of the language.
+  const Scene stepped =
+      make_scene(parameters_of({"Cylinder/Radial force=if(r <= 0.7, 1, max(2, z)) * (r != 1)"}));
+  EXPECT_EQ(stepped.force(0.6, 3.), 1);
+  EXPECT_EQ(stepped.force(0.8, 3.), 3);
+  EXPECT_EQ(stepped.force(1, 3.), 0);
 }
 
 TEST(Parameters, RefuseAMeshBeyondTheWantedSize) {
@@ -163,6 +228,7 @@ TEST(Parameters, RefuseAMeshBeyondTheWantedSize) {
 }
 
 TEST(Parameters, RefuseAForceThatIsNotFinite) {
+  const UntrappedFloatingPoint force_is_infinite;
   const Parameters parameters = parameters_of({"Cylinder/Radial force=1/(r - 0.6)^2 + log(z - 3)"});
   EXPECT_THROW(simulate(make_scene(parameters), parameters), BadInput);
 }

@@ -20,9 +20,9 @@ struct Outcome {
   std::string text; ///< both streams
 };
 
-/// Runs @p command in a shell, where $rollwave is the program.
+/// Runs @p command in a shell, where $rollwave is the program, ended by floating-point exceptions.
 Outcome shell(const std::string& command) {
-  setenv("rollwave", ROLLWAVE_EXECUTABLE, 1);
+  setenv("rollwave", "env LD_PRELOAD=" ROLLWAVE_TRAPS " " ROLLWAVE_EXECUTABLE, 1);
   FILE* const pipe = popen(("( " + command + " ) 2>&1").c_str(), "r");
   Outcome outcome;
   std::array<char, 4096> buffer;

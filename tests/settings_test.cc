@@ -52,6 +52,17 @@ TEST(Settings, RefuseFilesThatAreNotThere) {
   EXPECT_THROW(read_settings(testing::TempDir()), BadInput);
 }
 
+TEST(Settings, RefuseWhatIsNoTextOrHasNoEnd) {
+  EXPECT_NE(refusal_of(std::string(1 << 20, '\n') + "end\n").find("1 MiB"), std::string::npos);
+  EXPECT_THROW(read_settings("/dev/zero"), BadInput);
+  const std::string binary = refusal_of(std::string("\x7f"
+                                                    "ELF\0\x1b[2J",
+                                                    9) +
+                                        std::string(10000, '\x01'));
+  EXPECT_LT(binary.size(), 1000u);
+  EXPECT_EQ(binary.find_first_of(std::string("\x7f\0\x1b\x01", 4)), std::string::npos) << binary;
+}
+
 TEST(Settings, ReadAssignments) {
   const Setting setting = parse_setting("Contact/Most steps = 7", "--set");
   EXPECT_EQ(setting.section, "Contact");
