@@ -1,6 +1,7 @@
 #include "study_output.h"
 
 #include "atomic_file.h"
+#include "report.h"
 #include "study_plot.h"
 
 #include <deal.II/base/table_handler.h>
@@ -158,7 +159,7 @@ void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
   if (any(runs, has_certificate))
     out << "Certified: the guaranteed bound of the relative error in the energy norm of the "
            "feasible displacement.\n";
-  make_table(runs).write_text(out, TableHandler::table_with_headers);
+  print_table(out, make_table(runs));
   print_orders(out, runs);
 }
 
@@ -183,7 +184,7 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     if (const auto svg = plot_study(runs, plot))
       add(name, *svg);
     else
-      written.remarks.push_back(name + " was not drawn: is gnuplot installed?");
+      written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
   };
   const auto figure = [](const std::string& name) {
     return RunValue([name](const StudyRun& run) { return run.figure(name); });

@@ -1,5 +1,7 @@
 #include "verification.h"
 
+#include "report.h"
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table_handler.h>
 #include <deal.II/grid/tria.h>
@@ -52,7 +54,7 @@ void report_verification(std::ostream& out, const Result& result, const ExactSol
   add("half-width", result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
   add("peak pressure", result.patch.peak_pressure, exact.peak_pressure, 0);
   out << "\nVerification against the semi-analytic solution\n";
-  table.write_text(out, TableHandler::table_with_headers);
+  print_table(out, table);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";
