@@ -8,11 +8,12 @@ namespace rollwave {
 
 /**
  * A file that is either complete or absent: it is written beside its place as "NAME.part" and moved
- * there by commit(). Without commit() nothing remains.
+ * there by commit(). Without commit() nothing remains, unless the process is killed: then
+ * "NAME.part" does, until the file is written again.
  */
 class AtomicFile {
 public:
-  /// @throws NotWritten when the file cannot be opened.
+  /// Makes the directory where it is missing. @throws NotWritten when the file cannot be opened.
   explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;

@@ -47,6 +47,9 @@ struct ContactSolution {
   std::vector<ContactStep> history;
   double rho = 0;          ///< Uzawa's step length; 0 for the active set method
   std::string remark = ""; ///< anything unusual the user should know
+
+  /// Where the user has interrupted the iteration: after what, and what is missing.
+  std::string shortfall = "";
 };
 
 /// Solves by the method of @p parameters, beginning with the contact pressures @p start (none when

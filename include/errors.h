@@ -20,12 +20,17 @@ struct NotSolved : std::runtime_error {
 /// What NotSolved says, where a method needs more memory than there is.
 struct NotEnoughMemory : NotSolved {
   /// @p reason says what needs how much; the advice is added.
-  explicit NotEnoughMemory(const std::string& reason)
+  explicit NotEnoughMemory(const std::string& reason = "not enough memory")
       : NotSolved(reason + "; lower Mesh/Radial cells, Mesh/Angular cells or Mesh/Global "
                            "refinements, or narrow Road/Contact zone"),
         reason(reason) {}
 
   std::string reason;
+};
+
+/// The user has interrupted the program before there was a result; exit code 2.
+struct Interrupted : NotSolved {
+  using NotSolved::NotSolved;
 };
 
 /// A result could not be written; exit code 3. No file is left half-written.

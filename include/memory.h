@@ -1,12 +1,25 @@
 #ifndef ROLLWAVE_MEMORY_H
 #define ROLLWAVE_MEMORY_H
 
+#include <optional>
 #include <string>
 
 namespace rollwave {
 
+/// What OpenBLAS takes for each of its threads, in one piece.
+constexpr double blas_buffer_bytes = 128. * 1024 * 1024;
+
+/// The bytes that this process may still take before it meets a limit (`ulimit -v` or `-d`);
+/// nullopt without a limit, or where that is not known.
+std::optional<double> memory_below_limit();
+
+/// Where memory is limited, takes what BLAS needs before anything else does: it would wait for ever
+/// for memory that it does not get. @throws NotSolved when there is too little.
+void reserve_blas_memory();
+
 /// Refuses work that would drive the machine out of memory, where the system might end any process
-/// instead of failing an allocation. Does nothing where the free memory is not known.
+/// instead of failing an allocation, or this process to its limit, where libraries end it in their
+/// own ways. Does nothing where the free memory is not known.
 /// @throws NotEnoughMemory when less than @p bytes are available; @p purpose says what needs them.
 void require_memory(double bytes, const std::string& purpose);
 

@@ -8,6 +8,7 @@ namespace rollwave {
 /// program ends.
 class MpiSession {
 public:
+  /// @throws NotEnoughMemory.
   MpiSession();
 };
 

@@ -11,7 +11,8 @@
 
 namespace rollwave {
 
-/// Makes the directory of the files. @throws BadInput when it cannot be made or written into.
+/// Makes the directory of the files. @throws BadInput when it cannot be made or written into,
+/// NotWritten when there is no space for it.
 std::filesystem::path prepare_directory(const Parameters& parameters);
 
 /// What has been written, and what could not be drawn.

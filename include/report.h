@@ -7,6 +7,10 @@
 
 #include <iosfwd>
 
+namespace dealii {
+class TableHandler;
+}
+
 namespace rollwave {
 
 /// Says what will be solved.
@@ -17,6 +21,10 @@ void report_result(std::ostream& out, const Result& result);
 
 /// Tells where the time went and which files were written.
 void report_end(std::ostream& out, const Work& work, const WrittenFiles& written);
+
+/// Prints a table for reading. Like the other texts it is lost where @p out has failed: whoever
+/// waits for files shall not lose them with the screen.
+void print_table(std::ostream& out, const dealii::TableHandler& table);
 
 /// Lists the written files.
 void report_files(std::ostream& out, const WrittenFiles& written);

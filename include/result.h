@@ -120,6 +120,7 @@ struct Result {
   double rho;                       ///< Uzawa's step length; 0 for the active set method
   std::string remark;
   std::string shortfall; ///< what was wanted and not reached, with the key to change; mostly empty
+  bool is_interrupted = false; ///< by the user: the shortfall says after what
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
   Work work;

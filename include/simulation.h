@@ -11,7 +11,11 @@ namespace rollwave {
  * certify where needed, indicate, mark, refine, beginning each contact iteration with the pressure
  * of the mesh before. What was wanted and could not be reached is told in Result::shortfall.
  *
- * @throws BadInput for a mesh or force that cannot be used, NotSolved when a solver fails.
+ * When the user interrupts it, the mesh at hand is the last one: its solution, certified where that
+ * was asked for, is the best there is, and Result::is_interrupted is set if anything is missing.
+ *
+ * @throws BadInput for a mesh or force that cannot be used, NotSolved when a solver fails,
+ *         Interrupted before the first mesh is solved.
  */
 Solution simulate(const Scene& scene, const Parameters& parameters);
 

@@ -5,9 +5,15 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 namespace rollwave {
+
+struct Study {
+  std::vector<StudyRun> runs;
+  std::string shortfall; ///< where the user has interrupted it; mostly empty
+};
 
 /**
  * Runs every combination of the values in `Study/Vary`, the last key varying fastest, for each of
@@ -16,12 +22,17 @@ namespace rollwave {
  *
  * After each run study.csv is written to @p directory. When the directory holds the rows of the
  * same study, that is beside a parameters.prm with the same text, only the missing runs are made.
+ * Where a run continues the mesh of the run before, that takes all runs since the mesh was begun.
+ *
+ * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
+ * and no further run is begun.
  *
  * @throws BadInput before the first run when any run's parameters are not admitted, or
- *         `Study/Published steps` does not have one entry for each run; NotWritten.
+ *         `Study/Published steps` does not have one entry for each run; NotWritten; Interrupted
+ *         before there is a row.
  */
-std::vector<StudyRun> run_study(const Parameters& parameters,
-                                const std::filesystem::path& directory, std::ostream& progress);
+Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
+                std::ostream& progress);
 
 } // namespace rollwave
 

@@ -26,6 +26,9 @@ struct UzawaSettings {
  * -p to -u on the nodes that end up in contact. A step length that is too large shows in a residual
  * that stops falling.
  *
+ * The user may interrupt it after any step: p and u_h(p) satisfy the equation, and what they lack
+ * of the contact conditions is told in ContactSolution::shortfall.
+ *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         settings.most_steps steps.
  */

@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
 
 namespace rollwave {
 
@@ -14,10 +16,23 @@ namespace {
                    (error ? std::string(": ") + std::strerror(error) : std::string()));
 }
 
+/// Waits until a file is on the disk. Returns whether it is.
+bool is_on_disk(const std::filesystem::path& path) {
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    return false;
+  const bool is_synchronised = fsync(descriptor) == 0;
+  close(descriptor);
+  return is_synchronised;
+}
+
 } // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path(path), part(path) {
   part += ".part";
+  // Whoever removes the directory during a long computation would lose its result.
+  std::error_code ignored;
+  std::filesystem::create_directories(path.parent_path(), ignored);
   errno = 0;
   out.open(part, std::ios::binary);
   if (!out)
@@ -31,9 +46,16 @@ AtomicFile::~AtomicFile() {
 }
 
 unsigned long AtomicFile::commit() {
+  const bool has_failed = !out;
+  if (has_failed) {
+    out.clear();
+    out.put('\n'); // fails again when the file is closed, which tells the reason
+  }
   errno = 0;
   out.close();
-  if (!out)
+  // Moved before its content is on the disk, a file could be found empty after a crash of the
+  // machine; and some file systems notice only here that they are full.
+  if (has_failed || !out || !is_on_disk(part))
     fail(path, errno);
   std::error_code error;
   const auto size = std::filesystem::file_size(part, error);

@@ -10,19 +10,20 @@ namespace rollwave {
 
 namespace {
 
-/// A temporary file that vanishes with this object.
+/// A temporary file without a name, which vanishes with the last process that has it open, however
+/// that ends.
 class TemporaryFile {
 public:
   TemporaryFile() {
     const char* const directory = std::getenv("TMPDIR");
-    name = std::string(directory ? directory : "/tmp") + "/rollwave-XXXXXX";
+    std::string name = std::string(directory ? directory : "/tmp") + "/rollwave-XXXXXX";
     descriptor = mkstemp(name.data());
+    if (descriptor >= 0)
+      unlink(name.c_str());
   }
   ~TemporaryFile() {
-    if (descriptor >= 0) {
+    if (descriptor >= 0)
       close(descriptor);
-      unlink(name.c_str());
-    }
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -32,7 +33,8 @@ public:
                                   static_cast<ssize_t>(content.size());
   }
 
-  std::string name;
+  /// Where processes that this one starts find it.
+  std::string path() const { return "/dev/fd/" + std::to_string(descriptor); }
 
 private:
   int descriptor;
@@ -46,7 +48,9 @@ std::optional<std::string> draw_svg(const std::string& script, unsigned int widt
   if (!file.write("set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
                   " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
     return {};
-  FILE* const pipe = popen(("gnuplot '" + file.name + "' 2>/dev/null").c_str(), "r");
+  // An interrupt is for this program, which still wants the picture of what it has.
+  FILE* const pipe =
+      popen(("trap '' INT TERM; exec gnuplot " + file.path() + " 2>/dev/null").c_str(), "r");
   if (!pipe)
     return {};
   std::string svg;

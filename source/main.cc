@@ -1,7 +1,9 @@
 #include "command_line.h"
 #include "errors.h"
+#include "memory.h"
 #include "output.h"
 #include "parameters.h"
+#include "process.h"
 #include "report.h"
 #include "simulation.h"
 #include "study.h"
@@ -12,15 +14,15 @@
 
 #include <deal.II/grid/tria.h>
 
-#include <csignal>
 #include <iostream>
 #include <new>
 
-namespace {
-
 using namespace rollwave;
 
+namespace {
+
 void run(const CommandLine& line) {
+  reserve_blas_memory();
   std::vector<Setting> settings = read_settings(line.file);
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   const Parameters parameters = read_parameters(settings);
@@ -29,10 +31,12 @@ void run(const CommandLine& line) {
 
   report_scene(std::cout, scene, parameters);
   if (!parameters.study.vary.empty() || !parameters.study.scenes.empty()) {
-    const auto runs = run_study(parameters, directory, std::cout);
+    const Study study = run_study(parameters, directory, std::cout);
     std::cout << '\n';
-    print_study(std::cout, runs);
-    report_files(std::cout, write_study(directory, parameters, runs));
+    print_study(std::cout, study.runs);
+    report_files(std::cout, write_study(directory, parameters, study.runs));
+    if (!study.shortfall.empty())
+      throw NotSolved(study.shortfall);
     return;
   }
   Solution solution = simulate(scene, parameters);
@@ -53,7 +57,7 @@ void run(const CommandLine& line) {
     throw NotSolved(solution.result.shortfall);
 }
 
-int act(const std::vector<std::string>& arguments) {
+void act(const std::vector<std::string>& arguments) {
   const CommandLine line = read_command_line(arguments);
   switch (line.action) {
   case CommandLine::Action::help:
@@ -68,34 +72,29 @@ int act(const std::vector<std::string>& arguments) {
   case CommandLine::Action::run:
     run(line);
   }
-  return 0;
 }
 
 } // namespace
 
 int main(int argc, char* argv[]) {
-  // A file that grows beyond the limit shall be an error of the stream, not the end of the process.
-  std::signal(SIGXFSZ, SIG_IGN);
-
+  settle_process(argv);
   const auto fail = [](const std::string& kind, const std::string& message, int code) {
     std::cout << std::flush;
     std::cerr << "rollwave: " << kind << message << std::endl;
     return code;
   };
   try {
-    return act({argv + 1, argv + argc});
-  } catch (const rollwave::BadInput& error) {
+    act({argv + 1, argv + argc});
+    if (!(std::cout << std::flush))
+      throw NotWritten("the standard output could not be written to");
+    return 0;
+  } catch (const BadInput& error) {
     return fail("", error.what(), 1);
-  } catch (const rollwave::NotSolved& error) {
-    return fail("not solved: ", error.what(), 2);
-  } catch (const rollwave::NotWritten& error) {
+  } catch (const NotWritten& error) {
     return fail("not written: ", error.what(), 3);
   } catch (const std::bad_alloc&) {
-    return fail("not solved: ",
-                "not enough memory; lower Mesh/Radial cells, Mesh/Angular cells or "
-                "Mesh/Global refinements",
-                2);
-  } catch (const std::exception& error) {
+    return fail("not solved: ", NotEnoughMemory().what(), 2);
+  } catch (const std::exception& error) { // NotSolved, or what a library throws
     return fail("not solved: ", error.what(), 2);
   }
 }

@@ -3,27 +3,87 @@
 #include "errors.h"
 
 #include <deal.II/base/utilities.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <malloc.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
 
-void require_memory(double bytes, const std::string& purpose) {
+namespace {
+
+constexpr double mebibyte = 1024. * 1024;
+
+/// What libraries allocate besides, most of them without a way to tell that they could not.
+constexpr double libraries_bytes = 64 * mebibyte;
+
+/// The bytes that the machine can give without taking them from others, if known.
+double available_memory() {
   std::ifstream meminfo("/proc/meminfo");
   std::string name, unit;
   double kibibytes = 0;
   while (meminfo >> name >> kibibytes && std::getline(meminfo, unit))
-    if (name == "MemAvailable:" && bytes > 1024 * kibibytes) {
-      const double gibibyte = 1024. * 1024 * 1024;
-      std::ostringstream message;
-      message.precision(3);
-      message << purpose << " needs " << bytes / gibibyte << " GiB of memory, and "
-              << 1024 * kibibytes / gibibyte << " GiB are available";
-      throw NotEnoughMemory(message.str());
-    }
+    if (name == "MemAvailable:")
+      return 1024 * kibibytes;
+  return std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+std::optional<double> memory_below_limit() {
+  double total, resident, shared, text, libraries, data;
+  std::ifstream pages("/proc/self/statm");
+  if (!(pages >> total >> resident >> shared >> text >> libraries >> data))
+    return {};
+  std::optional<double> room;
+  const auto consider = [&room](auto resource, double used_pages) {
+    rlimit limit;
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+      return;
+    const double left = limit.rlim_cur - used_pages * sysconf(_SC_PAGESIZE);
+    room = std::min(left, room.value_or(left));
+  };
+  consider(RLIMIT_AS, total);
+  consider(RLIMIT_DATA, data);
+  return room;
+}
+
+void reserve_blas_memory() {
+  const auto room = memory_below_limit();
+  if (!room)
+    return;
+  if (*room < blas_buffer_bytes + libraries_bytes) {
+    std::ostringstream message;
+    message << "the limit of memory (ulimit -v or -d) is too low by "
+            << std::ceil((blas_buffer_bytes + libraries_bytes - *room) / mebibyte)
+            << " MiB to begin; raise it";
+    throw NotSolved(message.str());
+  }
+  // The first factorisation takes the buffer, which then stays.
+  dealii::LAPACKFullMatrix<double> matrix(1);
+  matrix(0, 0) = 1;
+  matrix.set_property(dealii::LAPACKSupport::symmetric);
+  matrix.compute_cholesky_factorization();
+}
+
+void require_memory(double bytes, const std::string& purpose) {
+  const double below_limit =
+      memory_below_limit().value_or(std::numeric_limits<double>::infinity()) - libraries_bytes;
+  const double available = std::max(0., std::min(available_memory(), below_limit));
+  if (bytes <= available)
+    return;
+  std::ostringstream message;
+  message.precision(3);
+  message << purpose << " needs " << bytes / mebibyte << " MiB of memory, and "
+          << available / mebibyte << " MiB are available";
+  throw NotEnoughMemory(message.str());
 }
 
 void release_freed_memory() {

@@ -140,6 +140,7 @@ void measure(const Scene& scene, const RingSpace& space, const MeshSystem& syste
   result.history = contact.history;
   result.rho = contact.rho;
   result.remark = contact.remark;
+  result.shortfall = contact.shortfall;
   result.cycles.push_back({result.mesh.cells,
                            result.mesh.dofs,
                            static_cast<unsigned int>(result.history.size()),

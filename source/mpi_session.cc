@@ -1,5 +1,7 @@
 #include "mpi_session.h"
 
+#include "memory.h"
+
 #include <mpi.h>
 
 namespace rollwave {
@@ -7,7 +9,12 @@ namespace rollwave {
 namespace {
 
 struct StartedMpi {
-  StartedMpi() { MPI_Init(nullptr, nullptr); }
+  StartedMpi() {
+    // It ends the process where it does not get them.
+    constexpr double bytes = 256. * 1024 * 1024;
+    require_memory(bytes, "MPI, which iterative solution rests on,");
+    MPI_Init(nullptr, nullptr);
+  }
   ~StartedMpi() { MPI_Finalize(); }
 };
 

@@ -8,6 +8,7 @@
 #include "summary.h"
 #include "version.h"
 
+#include <cerrno>
 #include <limits>
 #include <ostream>
 #include <sstream>
@@ -33,9 +34,13 @@ std::filesystem::path prepare_directory(const Parameters& parameters) {
   const std::filesystem::path directory = parameters.output.directory;
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error || access(directory.c_str(), W_OK | X_OK) != 0)
+  if (error == std::errc::no_space_on_device)
+    throw NotWritten(directory.string() + " could not be made: " + error.message());
+  if (!error && access(directory.c_str(), W_OK | X_OK) != 0)
+    error.assign(errno, std::generic_category());
+  if (error)
     throw BadInput(refusal(parameters.settings, "Output", "Directory",
-                           "this directory cannot be made or written into"));
+                           "this directory cannot be made or written into: " + error.message()));
   return directory;
 }
 
@@ -77,7 +82,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       if (svg)
         add(name, *svg);
       else
-        written.remarks.push_back(name + " was not drawn: is gnuplot installed?");
+        written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
     };
     if (parameters.wants(OutputFile::plot))
       add_picture("scene.svg", plot_scene(scene, parameters, solution.result));

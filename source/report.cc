@@ -35,7 +35,7 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history) 
     table.set_precision(column, 3);
     table.set_scientific(column, true);
   }
-  table.write_text(out, TableHandler::table_with_headers);
+  print_table(out, table);
 }
 
 void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
@@ -55,10 +55,17 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
                     number(cycles[i].certified.has_value(), cycles[i].certified.value_or(0)));
   }
   out << "\nAdaptive refinement\n";
-  table.write_text(out, TableHandler::table_with_headers);
+  print_table(out, table);
 }
 
 } // namespace
+
+void print_table(std::ostream& out, const TableHandler& table) {
+  // deal.II does not write to a stream that has failed, but throws.
+  std::ostringstream text;
+  table.write_text(text, TableHandler::table_with_headers);
+  out << text.str();
+}
 
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
   out << version_text() << '\n'
@@ -110,6 +117,8 @@ void report_result(std::ostream& out, const Result& result) {
       out << "           G from " << std::setprecision(9) << result.load_bounds->lower << " to "
           << result.load_bounds->upper << '\n';
   }
+  if (!result.shortfall.empty())
+    out << "Shortfall  " << result.shortfall << '\n';
   out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
       << ", penetration " << result.residuals.penetration << ", negative pressure "
       << result.residuals.negative_pressure << ", complementarity "

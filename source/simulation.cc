@@ -1,5 +1,7 @@
 #include "simulation.h"
 
+#include "errors.h"
+#include "interrupt.h"
 #include "load_bounds.h"
 #include "mesh_solution.h"
 #include "refinement.h"
@@ -69,11 +71,19 @@ bool refine(const std::vector<double>& indicators, const Parameters& parameters,
   return true;
 }
 
-std::string shortfall_text(const Parameters& parameters, double reached) {
+/// What of the wanted error is missing, and why.
+std::string shortfall_text(const Parameters& parameters, const Result& result) {
   std::ostringstream text;
-  text << "the certified relative error is " << reached << ", wanted "
-       << parameters.mesh.wanted_relative_error
-       << "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less";
+  if (!result.shortfall.empty())
+    text << result.shortfall;
+  else if (result.is_interrupted)
+    text << "interrupted after " << result.cycles.size()
+         << (result.cycles.size() == 1 ? " mesh" : " meshes");
+  if (const double wanted = parameters.mesh.wanted_relative_error; wanted > 0)
+    text << (result.is_interrupted ? "; " : "") << "the certified relative error is "
+         << result.certified->relative << ", wanted " << wanted;
+  if (!result.is_interrupted)
+    text << "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less";
   return text.str();
 }
 
@@ -117,6 +127,8 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
       const Work::Phase phase(result.work, "space");
       solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
     }
+    if (cycle == 0 && is_interrupted())
+      throw Interrupted("interrupted before the first mesh was solved");
     const bool is_last = cycle == most_cycles;
     const bool is_used_again =
         keep == Keep::everything || (parameters.certificate.load_bounds && most_cycles == 0);
@@ -130,7 +142,9 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
     if (certifies && (is_last || wants_error || indicator == Indicator::certificate))
       certify_solution(scene, on_mesh, solution);
     const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
-    if (!is_reached && !is_last) {
+    const bool is_finished = is_reached || is_last;
+    result.is_interrupted = !result.shortfall.empty() || (!is_finished && is_interrupted());
+    if (!is_finished && !result.is_interrupted) {
       const std::vector<double> indicators = indicate(indicator, scene, on_mesh, solution);
       if (refine(indicators, parameters, continues && cycle == 0, solution)) {
         double squared = 0;
@@ -139,11 +153,11 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
         result.cycles.back().indicated = std::sqrt(squared);
         continue;
       }
-      if (certifies && !result.certified)
-        certify_solution(scene, on_mesh, solution);
     }
-    if (wants_error && !is_reached)
-      result.shortfall = shortfall_text(parameters, result.certified->relative);
+    if (certifies && !result.certified)
+      certify_solution(scene, on_mesh, solution);
+    if (result.is_interrupted || (wants_error && !is_reached))
+      result.shortfall = shortfall_text(parameters, result);
     else if (result.residuals.largest() > wanted_residual &&
              parameters.contact.method == ContactMethod::active_set)
       result.shortfall = residual_text(result.residuals);

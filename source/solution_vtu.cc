@@ -94,6 +94,7 @@ void write_solution_vtu(std::ostream& out, const Solution& solution, double unit
   DeformedCylinder cylinder(solution, unit);
   DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;
+  flags.print_date_and_time = false; // a run repeated gives the same file
   flags.compression_level = decltype(flags.compression_level)::best_speed;
   cylinder.set_flags(flags);
   try {

@@ -9,6 +9,7 @@ namespace rollwave {
 SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                                    const std::optional<FieldVector>& load, Work& work) {
   SolverChoice choice;
+  std::string direct_shortage;
   if (kind != SolverKind::iterative)
     try {
       choice.solver = std::make_unique<DirectSolver>(space, scene);
@@ -17,10 +18,18 @@ SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, cons
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
         throw;
-      choice.remark = "solved iteratively: " + shortage.reason;
+      direct_shortage = shortage.reason;
+      choice.solver.reset(); // the other one needs its memory
+      choice.remark = "solved iteratively: " + direct_shortage;
     }
-  choice.solver = std::make_unique<IterativeSolver>(space);
-  choice.solver->turn_to(scene, load, work);
+  try {
+    choice.solver = std::make_unique<IterativeSolver>(space);
+    choice.solver->turn_to(scene, load, work);
+  } catch (const NotEnoughMemory& shortage) {
+    if (direct_shortage.empty())
+      throw;
+    throw NotEnoughMemory(direct_shortage + "; " + shortage.reason);
+  }
   return choice;
 }
 

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iomanip>
 #include <map>
+#include <new>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -78,6 +79,8 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters) {
   set("Contact", "Method", "active set");
   set("Certificate", "Error bound", "true");
   const Solution solution = simulate(scene, read_parameters(settings));
+  if (solution.result.is_interrupted)
+    throw Interrupted(solution.result.shortfall);
   std::ostringstream name;
   name << "an adaptive solution with " << solution.result.mesh.dofs
        << " unknowns, its own relative error certified to " << std::setprecision(2)
@@ -121,6 +124,11 @@ using MeshKey = decltype(mesh_key(Parameters()));
 bool is_adaptive(const Parameters& parameters) {
   return parameters.mesh.wanted_relative_error > 0 ||
          parameters.mesh.adaptive_cycles.value_or(0) > 0;
+}
+
+/// Whether a run begins with the mesh that the run before has ended with.
+bool continues_mesh(const Parameters& parameters) {
+  return is_adaptive(parameters) && parameters.study.continue_meshes;
 }
 
 /// The scenes of a study one after the other, each on the mesh of the one before where that is
@@ -169,25 +177,73 @@ private:
   Solution solution;
 };
 
+std::string parameters_text(const Parameters& parameters) {
+  std::ostringstream text;
+  write_parameters(text, parameters);
+  return text.str();
+}
+
 /// The runs that an earlier call has finished; otherwise makes the directory that of
 /// this study.
 std::vector<StudyRun> finished_runs(const Parameters& parameters,
                                     const std::filesystem::path& directory) {
-  std::ostringstream own, earlier;
-  write_parameters(own, parameters);
+  const std::string own = parameters_text(parameters);
+  std::ostringstream earlier;
   earlier << std::ifstream(directory / "parameters.prm").rdbuf();
-  if (own.str() == earlier.str())
+  if (own == earlier.str())
     return read_study_csv(directory / "study.csv");
-  std::error_code ignored;
-  std::filesystem::remove(directory / "study.csv", ignored);
-  write_file(directory / "parameters.prm", own.str());
+  // In this order: rows beside the parameters of another study would be taken for its own.
+  std::error_code error;
+  std::filesystem::remove(directory / "study.csv", error);
+  if (error)
+    throw NotWritten((directory / "study.csv").string() +
+                     " could not be removed: " + error.message());
+  write_file(directory / "parameters.prm", own);
   return {};
+}
+
+/// The @p finished ones of all runs, but for the last ones where the next run continues their mesh:
+/// it is made anew with them.
+std::vector<StudyRun> runs_to_keep(std::vector<StudyRun> finished, const std::vector<Plan>& plans) {
+  if (finished.size() >= plans.size())
+    return finished;
+  const Parameters& next = plans[finished.size()].parameters;
+  if (continues_mesh(next))
+    while (!finished.empty() && mesh_key(plans[finished.size() - 1].parameters) == mesh_key(next))
+      finished.pop_back();
+  return finished;
+}
+
+/// Solves the scene of @p parameters and fills in what @p run tells of it.
+/// @throws NotSolved; Interrupted also when there is a result that lacks something.
+void solve_run(Sweep& sweep, References& references, const Parameters& parameters, StudyRun& run) {
+  const Scene scene = make_scene(parameters);
+  Solution& solution = sweep.solve(scene, parameters);
+  Result& result = solution.result;
+  if (result.is_interrupted)
+    throw Interrupted(result.shortfall);
+  if (parameters.study.true_errors) {
+    const Reference& reference = references.find(scene, parameters);
+    result.errors = measure_true_errors(*solution.space, solution.displacement, result,
+                                        solution.certificate, reference);
+    run.reference = reference.name;
+  }
+  run.figures = figures_of(to_lengths(result, scene.unit));
+  run.failure = result.shortfall;
+}
+
+/// Writes study.csv, and parameters.prm where the directory has been removed.
+void write_runs(const Parameters& parameters, const std::filesystem::path& directory,
+                const std::vector<StudyRun>& runs) {
+  if (!std::filesystem::exists(directory / "parameters.prm"))
+    write_file(directory / "parameters.prm", parameters_text(parameters));
+  write_file(directory / "study.csv", study_csv(runs));
 }
 
 } // namespace
 
-std::vector<StudyRun> run_study(const Parameters& parameters,
-                                const std::filesystem::path& directory, std::ostream& progress) {
+Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
+                std::ostream& progress) {
   const std::vector<Plan> plans = make_plans(parameters);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())
@@ -198,8 +254,9 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
   for (const Plan& plan : plans)
     sweep.announce(make_scene(plan.parameters), plan.parameters);
 
-  const auto finished = finished_runs(parameters, directory);
-  std::vector<StudyRun> runs;
+  const auto finished = runs_to_keep(finished_runs(parameters, directory), plans);
+  Study study;
+  auto& runs = study.runs;
   References references;
   for (const Plan& plan : plans) {
     StudyRun run;
@@ -222,27 +279,25 @@ std::vector<StudyRun> run_study(const Parameters& parameters,
     }
     progress << std::endl;
     try {
-      const Parameters& own = plan.parameters;
-      const Scene scene = make_scene(own);
-      Solution& solution = sweep.solve(scene, own);
-      Result& result = solution.result;
-      if (parameters.study.true_errors) {
-        const Reference& reference = references.find(scene, own);
-        result.errors = measure_true_errors(*solution.space, solution.displacement, result,
-                                            solution.certificate, reference);
-        run.reference = reference.name;
-      }
-      run.figures = figures_of(to_lengths(result, scene.unit));
-      run.failure = result.shortfall;
+      solve_run(sweep, references, plan.parameters, run);
+    } catch (const Interrupted& interruption) {
+      if (runs.empty())
+        throw;
+      study.shortfall = "interrupted after " + std::to_string(runs.size()) + " of " +
+                        std::to_string(plans.size()) +
+                        " runs; the same command goes on with the others";
+      return study;
     } catch (const NotSolved& failure) {
       run.failure = failure.what();
+    } catch (const std::bad_alloc&) {
+      run.failure = NotEnoughMemory().what();
     }
     if (!run.failure.empty())
       progress << "  not solved: " << run.failure << std::endl;
     runs.push_back(std::move(run));
-    write_file(directory / "study.csv", study_csv(runs));
+    write_runs(parameters, directory, runs);
   }
-  return runs;
+  return study;
 }
 
 } // namespace rollwave

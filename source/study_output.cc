@@ -1,6 +1,7 @@
 #include "study_output.h"
 
 #include "atomic_file.h"
+#include "report.h"
 #include "study_plot.h"
 
 #include <deal.II/base/table_handler.h>
@@ -174,7 +175,7 @@ void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
   if (any(runs, has_certificate))
     out << "Certified: the guaranteed bound of the relative error in the energy norm of the "
            "feasible displacement.\n";
-  make_table(runs).write_text(out, TableHandler::table_with_headers);
+  print_table(out, make_table(runs));
   for (const StudyRun& run : runs)
     if (!run.failure.empty() && !run.scene.empty())
       out << "Not solved, " << run.scene << ": " << run.failure << '\n';
@@ -202,7 +203,7 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     if (const auto svg = plot_study(runs, plot))
       add(name, *svg);
     else
-      written.remarks.push_back(name + " was not drawn: is gnuplot installed?");
+      written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
   };
   const auto figure = [](const std::string& name) {
     return RunValue([name](const StudyRun& run) { return run.figure(name); });

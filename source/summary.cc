@@ -13,6 +13,8 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   using Json = nlohmann::ordered_json;
   Json json;
   json["program"] = version_text();
+  if (!result.shortfall.empty())
+    json["shortfall"] = result.shortfall;
   json["scene"] = {{"inner_radius", parameters.cylinder.inner_radius},
                    {"outer_radius", parameters.cylinder.outer_radius},
                    {"angular_velocity", parameters.cylinder.angular_velocity},

@@ -2,6 +2,7 @@
 
 #include "active_set.h"
 #include "errors.h"
+#include "interrupt.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,15 @@ RhoBounds rho_bounds(StiffnessSolver& solver, const ContactProblem& problem,
   const ContactSolution exact = active_set(solver, problem, settings.most_steps);
   return {2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
           2 / largest_compliance(solver, problem, exact.active)};
+}
+
+std::string interruption_text(const UzawaSettings& settings,
+                              const std::vector<ContactStep>& history) {
+  std::ostringstream text;
+  text << "interrupted after " << history.size() << (history.size() == 1 ? " step" : " steps")
+       << " of Uzawa's method: the residual is " << history.back().residual << ", wanted "
+       << settings.tolerance;
+  return text.str();
 }
 
 [[noreturn]] void give_up(StiffnessSolver& solver, const ContactProblem& problem,
@@ -125,7 +135,10 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
     // A scene without contact is solved when the first projection leaves p at zero.
-    if (measured <= settings.tolerance * size) {
+    const bool is_converged = measured <= settings.tolerance * size;
+    if (!is_converged && is_interrupted())
+      solution.shortfall = interruption_text(settings, solution.history);
+    if (is_converged || !solution.shortfall.empty()) {
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);
       return solution;

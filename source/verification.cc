@@ -1,5 +1,7 @@
 #include "verification.h"
 
+#include "report.h"
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table_handler.h>
 #include <deal.II/grid/tria.h>
@@ -55,7 +57,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
   add("half-width", 1, result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
   add("peak pressure", 1, result.patch.peak_pressure, exact.peak_pressure, 0);
   out << "\nVerification against the semi-analytic solution\n";
-  table.write_text(out, TableHandler::table_with_headers);
+  print_table(out, table);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";

@@ -63,7 +63,7 @@ Numbers run(const Parameters& parameters) {
     numbers[1 + (std::find(phases.begin(), phases.end(), phase) - phases.begin())] += seconds;
   const dealii::Timer timer;
   std::ofstream out("/dev/null");
-  write_solution_vtu(out, solution);
+  write_solution_vtu(out, solution, scene.unit);
   numbers[1 + phases.size()] = timer.wall_time();
   numbers[2 + phases.size()] =
       std::accumulate(numbers.begin() + 1, numbers.begin() + 2 + phases.size(), 0.);

@@ -1,76 +1,11 @@
 // The program as a user calls it: files, messages and exit codes.
-#include <gtest/gtest.h>
+#include "program.h"
 
 #include <nlohmann/json.hpp>
-
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <sys/wait.h>
 
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Outcome {
-  int exit_code;
-  std::string text; ///< both streams
-};
-
-/// Runs @p command in a shell, where $rollwave is the program, ended by floating-point exceptions.
-Outcome shell(const std::string& command) {
-  setenv("rollwave", "env LD_PRELOAD=" ROLLWAVE_TRAPS " " ROLLWAVE_EXECUTABLE, 1);
-  FILE* const pipe = popen(("( " + command + " ) 2>&1").c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer;
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0)
-    outcome.text.append(buffer.data(), count);
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return outcome;
-}
-
-/// A directory of its own, empty, for each test.
-class Program : public testing::Test {
-protected:
-  Program()
-      : directory(fs::path(testing::TempDir()) /
-                  (std::string("rollwave_") +
-                   testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::remove_all(directory);
-    fs::create_directories(directory);
-    std::ofstream(directory / "scene.prm")
-        << "subsection Mesh\n  set Radial cells = 4\n  set Angular cells = 60\nend\n"
-           "subsection Output\n  set Directory = "
-        << (directory / "out").string() << "\nend\n";
-    scene = "'" + (directory / "scene.prm").string() + "'";
-  }
-
-  ~Program() override { fs::remove_all(directory); }
-
-  std::string read(const std::string& name) const {
-    std::ifstream file(directory / "out" / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
-  bool has(const std::string& name) const { return fs::exists(directory / "out" / name); }
-
-  void expect_no_partial_files() const {
-    if (!fs::exists(directory / "out"))
-      return;
-    for (const auto& entry : fs::directory_iterator(directory / "out"))
-      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
-  }
-
-  const fs::path directory;
-  std::string scene;
-};
 
 TEST_F(Program, WritesEveryFileOfTheContract) {
   const Outcome outcome = shell("$rollwave " + scene);

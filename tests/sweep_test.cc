@@ -84,7 +84,7 @@ TEST(SweepStudy, SharesTheWidestZone) {
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   std::ostringstream progress;
-  const auto runs = run_study(parameters_of(assignments), directory, progress);
+  const auto runs = run_study(parameters_of(assignments), directory, progress).runs;
   std::filesystem::remove_all(directory);
   ASSERT_EQ(runs.size(), 12u);
   for (const StudyRun& run : runs) {

@@ -1,0 +1,17 @@
+#ifndef ROLLWAVE_INTERRUPT_H
+#define ROLLWAVE_INTERRUPT_H
+
+namespace rollwave {
+
+/// Notes SIGINT (Ctrl-C) and SIGTERM from here on: the first is told on the standard error and
+/// shows in is_interrupted(), the second ends the program at once. A signal that is ignored, as
+/// scripts do in the background, stays ignored.
+void heed_interrupts();
+
+/// Whether the program has been asked to end. Who repeats steps looks between them, and ends with
+/// the best there is: no more steps of Uzawa, no finer mesh, no further run of a study.
+bool is_interrupted();
+
+} // namespace rollwave
+
+#endif

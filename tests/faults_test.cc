@@ -1,0 +1,482 @@
+// Whatever ends a run, it says why, and every file is complete or absent; a stopped study goes on.
+#include "contact_solver.h"
+#include "errors.h"
+#include "interrupt.h"
+#include "program.h"
+#include "test_scenes.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <random>
+#include <thread>
+#include <unistd.h>
+
+namespace fs = std::filesystem;
+using namespace rollwave;
+using namespace std::chrono_literals;
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+/// The program as a process that can be watched and signalled.
+class RunningProgram {
+public:
+  explicit RunningProgram(std::vector<std::string> arguments) {
+    int ends[2];
+    if (pipe(ends) != 0)
+      throw std::runtime_error("no pipe");
+    process = fork();
+    if (process == 0) {
+      // As in the foreground of a terminal, wherever the test itself runs.
+      std::signal(SIGINT, SIG_DFL);
+      dup2(ends[1], STDOUT_FILENO);
+      dup2(ends[1], STDERR_FILENO);
+      close(ends[0]);
+      close(ends[1]);
+      std::vector<char*> argv = {const_cast<char*>(ROLLWAVE_EXECUTABLE)};
+      for (std::string& argument : arguments)
+        argv.push_back(argument.data());
+      argv.push_back(nullptr);
+      execv(argv[0], argv.data());
+      _exit(126);
+    }
+    close(ends[1]);
+    stream = ends[0];
+  }
+
+  ~RunningProgram() {
+    if (process > 0)
+      end_by(SIGKILL);
+    close(stream);
+  }
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// Returns when the program has said @p words, or has ended without.
+  void await(const std::string& words) {
+    while (said.find(words) == std::string::npos && listen()) {
+    }
+  }
+
+  void send(int signal) const { kill(process, signal); }
+
+  Outcome end() {
+    while (listen()) {
+    }
+    int status = 0;
+    waitpid(process, &status, 0);
+    process = 0;
+    return {exit_code_of(status), said};
+  }
+
+  Outcome end_by(int signal) {
+    send(signal);
+    return end();
+  }
+
+private:
+  bool listen() {
+    std::array<char, 4096> buffer;
+    const auto count = ::read(stream, buffer.data(), buffer.size());
+    if (count > 0)
+      said.append(buffer.data(), count);
+    return count > 0;
+  }
+
+  pid_t process;
+  int stream;
+  std::string said;
+};
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+class Faults : public Program {
+protected:
+  Faults() { testing::FLAGS_gtest_death_test_style = "threadsafe"; }
+
+  /// The arguments of a run of the fixture's scene.
+  std::vector<std::string> arguments(const std::vector<std::string>& assignments) const {
+    std::vector<std::string> all = {(directory / "scene.prm").string()};
+    for (const std::string& assignment : assignments) {
+      all.push_back("--set");
+      all.push_back(assignment);
+    }
+    return all;
+  }
+
+  Outcome run(const std::vector<std::string>& assignments) const {
+    return RunningProgram(arguments(assignments)).end();
+  }
+
+  /// The files of a run, but for those under other than their final names.
+  std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> contents;
+    if (fs::exists(directory / "out"))
+      for (const auto& entry : fs::directory_iterator(directory / "out"))
+        if (entry.path().extension() != ".part")
+          contents[entry.path().filename().string()] = read(entry.path().filename().string());
+    return contents;
+  }
+
+  /// Every file that is there is that of the undisturbed run with the files @p undisturbed.
+  void expect_complete(const std::map<std::string, std::string>& undisturbed) const {
+    for (const auto& [name, content] : files()) {
+      const auto file = undisturbed.find(name);
+      ASSERT_NE(file, undisturbed.end()) << name;
+      if (name == "summary.json") {
+        // Times differ.
+        EXPECT_EQ(nlohmann::json::parse(content)["contact"],
+                  nlohmann::json::parse(file->second)["contact"]);
+        EXPECT_TRUE(ends_with(content, "}\n"));
+      } else
+        EXPECT_TRUE(content == file->second) << name;
+    }
+  }
+};
+
+/// study.csv without what a run costs.
+std::vector<std::string> figures_of_study(const std::string& csv) {
+  std::vector<std::string> rows;
+  for (const std::string& line : lines_of(csv)) {
+    const auto header = lines_of(csv).front();
+    // Seconds and memory are the last columns.
+    const auto n_costs =
+        std::count(header.begin() + header.find("seconds_mesh"), header.end(), ',') + 1;
+    std::string row = line;
+    for (int i = 0; i < n_costs; ++i)
+      row.erase(row.rfind(','));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const std::vector<std::string> endless_refinement = {"Mesh/Wanted relative error=1e-12",
+                                                     "Mesh/Most unknowns=100000000"};
+
+TEST_F(Faults, InterruptedBetweenMeshesLeavesTheLast) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    RunningProgram program(arguments(endless_refinement));
+    program.await("Road");
+    std::this_thread::sleep_for(500ms);
+    const Outcome outcome = program.end_by(signal);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    for (const char* words :
+         {"rollwave: interrupted, ends after", "Shortfall  interrupted after",
+          "not solved: interrupted after", "the certified relative error is", "wanted 1e-12"})
+      EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
+    for (const char* name :
+         {"summary.json", "contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
+      EXPECT_TRUE(has(name)) << name;
+    const auto json = nlohmann::json::parse(read("summary.json"));
+    EXPECT_NE(json["shortfall"].get<std::string>().find("interrupted"), std::string::npos);
+    EXPECT_GT(json["error"]["certified_relative"], 0);
+    EXPECT_LT(json["error"]["certified_relative"], 0.1);
+    fs::remove_all(directory / "out");
+  }
+}
+
+TEST_F(Faults, InterruptedBetweenStepsOfUzawaLeavesTheLast) {
+  RunningProgram program(arguments({"Contact/Method=uzawa", "Contact/Rho=0.01",
+                                    "Contact/Tolerance=1e-15", "Contact/Most steps=100000000",
+                                    "Mesh/Radial cells=20", "Mesh/Angular cells=480"}));
+  program.await("Road");
+  std::this_thread::sleep_for(1s);
+  const Outcome outcome = program.end_by(SIGINT);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("of Uzawa's method: the residual is"), std::string::npos)
+      << outcome.text;
+  const auto json = nlohmann::json::parse(read("summary.json"));
+  EXPECT_NE(json["shortfall"].get<std::string>().find("interrupted"), std::string::npos);
+  // What it leaves is in equilibrium and has a guaranteed bound of its error.
+  EXPECT_LT(json["residuals"]["equilibrium"], 1e-10);
+  EXPECT_GT(json["error"]["certified_relative"], 0);
+}
+
+TEST_F(Faults, SecondInterruptEndsAtOnce) {
+  RunningProgram program(arguments({"Mesh/Radial cells=100", "Mesh/Angular cells=2000"}));
+  program.await("Road");
+  std::this_thread::sleep_for(100ms);
+  program.send(SIGINT);
+  program.await("interrupted, ends after");
+  const Outcome outcome = program.end_by(SIGINT);
+  EXPECT_EQ(outcome.exit_code, 128 + SIGINT) << outcome.text;
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
+  EXPECT_EXIT(
+      {
+        heed_interrupts();
+        std::raise(SIGINT);
+        const Parameters parameters = parameters_of({"Mesh/Adaptive cycles=1"});
+        try {
+          simulate(make_scene(parameters), parameters);
+        } catch (const Interrupted& interruption) {
+          std::cerr << interruption.what();
+          std::exit(0);
+        }
+        std::exit(1);
+      },
+      testing::ExitedWithCode(0), "interrupted before the first mesh was solved");
+}
+
+TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
+  const auto simulate_interrupted = [](const std::vector<std::string>& assignments) {
+    heed_interrupts();
+    const Parameters parameters = parameters_of(assignments);
+    Scene scene = make_scene(parameters);
+    scene.road = [road = scene.road](double z) {
+      if (!is_interrupted())
+        std::raise(SIGTERM); // on the first mesh
+      return road(z);
+    };
+    const Result result = simulate(scene, parameters).result;
+    std::cerr << result.shortfall << " [" << result.cycles.size() << " " << result.history.size()
+              << " " << result.certified.has_value() << "]";
+    std::exit(result.is_interrupted ? 2 : 0);
+  };
+  EXPECT_EXIT(simulate_interrupted({"Mesh/Adaptive cycles=3", "Mesh/Indicator=residual"}),
+              testing::ExitedWithCode(2), "interrupted after 1 mesh \\[1 [2-9] 1\\]");
+  EXPECT_EXIT(simulate_interrupted({"Contact/Method=uzawa"}), testing::ExitedWithCode(2),
+              "interrupted after 1 step of Uzawa's method: .*, wanted 1e-08 \\[1 1 1\\]");
+  // Nothing is missing where the last mesh is solved.
+  EXPECT_EXIT(simulate_interrupted({}), testing::ExitedWithCode(0), " \\[1 [2-9] 1\\]");
+}
+
+TEST_F(Faults, InterruptedStudyKeepsItsRunsAndGoesOn) {
+  const std::vector<std::string> study = {
+      "Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.75 | 0.8 | 0.85",
+      "Mesh/Wanted relative error=0.01"};
+  ASSERT_EQ(run(study).exit_code, 0);
+  const auto undisturbed = figures_of_study(read("study.csv"));
+  fs::remove_all(directory / "out");
+
+  RunningProgram program(arguments(study));
+  program.await("run 3 of 6");
+  const Outcome outcome = program.end_by(SIGINT);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("of 6 runs; the same command goes on"), std::string::npos)
+      << outcome.text;
+  EXPECT_EQ(outcome.text.find("  not solved"), std::string::npos) << outcome.text;
+  const auto kept = figures_of_study(read("study.csv"));
+  ASSERT_GE(kept.size(), 3u);
+  ASSERT_LT(kept.size(), undisturbed.size());
+  EXPECT_TRUE(std::equal(kept.begin(), kept.end(), undisturbed.begin()));
+  EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
+
+  const Outcome again = run(study);
+  EXPECT_EQ(again.exit_code, 0) << again.text;
+  EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
+}
+
+TEST_F(Faults, KilledAtAnyMomentLeavesCompleteFiles) {
+  const std::vector<std::string> settings = {"Mesh/Radial cells=20", "Mesh/Angular cells=480",
+                                             "Output/Files=summary, contact, parameters, solution"};
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(settings).exit_code, 0);
+  const Seconds duration = std::chrono::steady_clock::now() - begin;
+  const auto undisturbed = files();
+
+  std::minstd_rand random(1);
+  std::uniform_real_distribution<double> share(0.3, 1.1);
+  for (unsigned int i = 0; i < 12; ++i) {
+    fs::remove_all(directory / "out");
+    RunningProgram program(arguments(settings));
+    std::this_thread::sleep_for(share(random) * duration);
+    program.end_by(i % 2 == 0 ? SIGKILL : SIGHUP);
+    expect_complete(undisturbed);
+  }
+}
+
+TEST_F(Faults, KilledWhileAFileGrowsLeavesNoneOfItsName) {
+  // 50 MB
+  const std::vector<std::string> settings = {"Mesh/Degree=1", "Mesh/Radial cells=100",
+                                             "Mesh/Angular cells=1000",
+                                             "Certificate/Error bound=false"};
+  const fs::path name = directory / "out" / "solution.vtu", part = name.string() + ".part";
+  {
+    RunningProgram program(arguments(settings));
+    const auto until = std::chrono::steady_clock::now() + 20s;
+    while (!fs::exists(part) && !fs::exists(name) && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(program.end_by(SIGKILL).exit_code, 128 + SIGKILL);
+  }
+  EXPECT_FALSE(fs::exists(name));
+  // The next run replaces what is left.
+  ASSERT_TRUE(fs::exists(part));
+  ASSERT_EQ(run(settings).exit_code, 0);
+  expect_no_partial_files();
+  EXPECT_TRUE(ends_with(read("solution.vtu"), "</VTKFile>\n"));
+}
+
+TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
+  const std::vector<std::vector<std::string>> studies = {
+      {"Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.75 | 0.8 | 0.85; Contact/Method = active "
+       "set | uzawa",
+       "Cylinder/Radial force=1", "Output/Files="},
+      // Every run begins on the mesh of the run before.
+      {"Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.75 | 0.8 | 0.85 | 0.9",
+       "Study/Continue meshes=true", "Mesh/Wanted relative error=0.01", "Output/Files="}};
+  std::minstd_rand random(1);
+  for (const auto& study : studies) {
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(run(study).exit_code, 0);
+    const Seconds duration = std::chrono::steady_clock::now() - begin;
+    const auto undisturbed = figures_of_study(read("study.csv"));
+    fs::remove_all(directory / "out");
+
+    const auto expect_beginning_of_undisturbed = [&] {
+      if (!has("study.csv"))
+        return;
+      const auto kept = figures_of_study(read("study.csv"));
+      ASSERT_LE(kept.size(), undisturbed.size());
+      EXPECT_TRUE(std::equal(kept.begin(), kept.end(), undisturbed.begin()));
+    };
+    const auto expect_end_of_undisturbed = [&] {
+      ASSERT_EQ(run(study).exit_code, 0);
+      EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
+      expect_no_partial_files();
+      fs::remove_all(directory / "out");
+    };
+    for (const char* begun : {"run 3 of", "run 6 of"}) {
+      RunningProgram program(arguments(study));
+      program.await(begun);
+      program.end_by(SIGKILL);
+      expect_beginning_of_undisturbed();
+    }
+    expect_end_of_undisturbed();
+
+    std::uniform_real_distribution<double> share(0.3, 1.);
+    for (unsigned int i = 0; i < 5; ++i) {
+      RunningProgram program(arguments(study));
+      std::this_thread::sleep_for(share(random) * duration);
+      program.end_by(SIGKILL);
+      expect_beginning_of_undisturbed();
+    }
+    expect_end_of_undisturbed();
+  }
+}
+
+TEST_F(Faults, FullDiskLeavesWhatFitsComplete) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const auto undisturbed = files();
+  std::size_t largest = 0;
+  for (const auto& [name, content] : undisturbed)
+    largest = std::max(largest, content.size());
+  for (std::size_t blocks = 0; 512 * blocks < largest; blocks = blocks * 4 + 1) {
+    fs::remove_all(directory / "out");
+    const Outcome outcome = shell("ulimit -f " + std::to_string(blocks) + "; $rollwave " + scene);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+    EXPECT_NE(outcome.text.find("could not be written: File too large"), std::string::npos)
+        << outcome.text;
+    EXPECT_LT(files().size(), undisturbed.size());
+    expect_complete(undisturbed);
+    expect_no_partial_files();
+  }
+}
+
+TEST_F(Faults, RemovedDirectoryIsMadeAgain) {
+  RunningProgram program(arguments({"Mesh/Radial cells=40", "Mesh/Angular cells=1000"}));
+  program.await("Road");
+  fs::remove_all(directory / "out");
+  const Outcome outcome = program.end();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_TRUE(has("summary.json"));
+
+  // A study that was moved aside still goes on in the place where it was begun.
+  const std::vector<std::string> study = {"Study/Vary=Road/Distance = 0.75 | 0.8 | 0.85",
+                                          "Mesh/Wanted relative error=0.002"};
+  RunningProgram studying(arguments(study));
+  studying.await("run 2 of");
+  fs::remove_all(directory / "out");
+  EXPECT_EQ(studying.end().exit_code, 0);
+  const Outcome again = run(study);
+  EXPECT_NE(again.text.find("0.85  (done before)"), std::string::npos) << again.text;
+}
+
+TEST_F(Faults, DirectoryThatBecomesAFileIsAnError) {
+  RunningProgram program(arguments({"Mesh/Radial cells=40", "Mesh/Angular cells=1000"}));
+  program.await("Road");
+  fs::remove_all(directory / "out");
+  std::ofstream(directory / "out") << "in the way";
+  const Outcome outcome = program.end();
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_NE(outcome.text.find("could not be written: Not a directory"), std::string::npos)
+      << outcome.text;
+}
+
+TEST_F(Faults, LostScreenCostsNoFile) {
+  ASSERT_EQ(run({}).exit_code, 0);
+  const auto undisturbed = files();
+  // A full device, a closed stream, and a reader who has gone.
+  for (const std::string& call :
+       {"$rollwave " + scene + " > /dev/full; exit $?", "$rollwave " + scene + " >&-; exit $?",
+        "$rollwave " + scene + " <&- >&- 2>&-; exit $?",
+        "{ { $rollwave " + scene +
+            "; echo $? >&3; } | true; } 3>&1 | "
+            "{ read code; exit $code; }"}) {
+    fs::remove_all(directory / "out");
+    const Outcome outcome = shell(call);
+    EXPECT_EQ(outcome.exit_code, 3) << call << '\n' << outcome.text;
+    EXPECT_EQ(files().size(), undisturbed.size()) << call;
+    expect_complete(undisturbed);
+  }
+  EXPECT_EQ(shell("$rollwave --help > /dev/full").exit_code, 3);
+}
+
+TEST_F(Faults, GnuplotThatFailsCostsThePictureOnly) {
+  const fs::path bin = directory / "bin";
+  fs::create_directory(bin);
+  const auto expect_no_picture = [&] {
+    fs::remove_all(directory / "out");
+    const Outcome outcome = shell("PATH='" + bin.string() + "' $rollwave " + scene);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("scene.svg was not drawn"), std::string::npos) << outcome.text;
+    EXPECT_FALSE(has("scene.svg"));
+    EXPECT_TRUE(has("summary.json"));
+  };
+  expect_no_picture();
+  std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho '<svg'\nkill -9 $$\n";
+  fs::permissions(bin / "gnuplot", fs::perms::owner_all);
+  expect_no_picture();
+}
+
+TEST_F(Faults, MemoryLimitEndsWithAMessage) {
+  ASSERT_EQ(run({"Mesh/Radial cells=30", "Mesh/Angular cells=1000"}).exit_code, 0);
+  const auto undisturbed = files();
+  std::map<int, unsigned int> outcomes;
+  for (unsigned int mebibytes = 400; mebibytes <= 1200; mebibytes += 100) {
+    fs::remove_all(directory / "out");
+    const Outcome outcome =
+        shell("ulimit -v " + std::to_string(1024 * mebibytes) + "; timeout 30 $rollwave " + scene +
+              " --set 'Mesh/Radial cells=30' --set 'Mesh/Angular cells=1000'");
+    ++outcomes[outcome.exit_code];
+    expect_no_partial_files();
+    if (outcome.exit_code == 127) // the system's loader
+      EXPECT_NE(outcome.text.find("error while loading"), std::string::npos) << outcome.text;
+    else if (outcome.exit_code == 128 + SIGINT) // OpenBLAS when it is loaded
+      EXPECT_NE(outcome.text.find("blas_thread_init"), std::string::npos) << outcome.text;
+    else if (outcome.exit_code == 2)
+      EXPECT_NE(outcome.text.find("memory"), std::string::npos) << outcome.text;
+    else
+      EXPECT_EQ(outcome.exit_code, 0) << mebibytes << " MiB\n" << outcome.text;
+  }
+  EXPECT_GT(outcomes[2], 0u);
+  EXPECT_GT(outcomes[0], 0u);
+}
+
+} // namespace
