@@ -1,9 +1,12 @@
 // The program as a user calls it: files, messages and exit codes.
+#include "parameters.h"
 #include "program.h"
+#include "scene.h"
 
 #include <nlohmann/json.hpp>
 
 namespace fs = std::filesystem;
+using namespace rollwave;
 
 namespace {
 
@@ -278,6 +281,35 @@ TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {
   EXPECT_NE(read("study.csv").find("\n50,0,"), std::string::npos);
 }
 
+TEST_F(Program, RunsNamedScenesOfAStudy) {
+  const std::string study =
+      "$rollwave " + scene +
+      " --set 'Study/Scenes=hairline: Road/Distance = 0.9999; fast, thin: Cylinder/Angular "
+      "velocity = 1 & Cylinder/Inner radius = 0.9 & Road/Distance = 0.95'"
+      " --set 'Study/Vary=Mesh/Degree = 1 | 2' --set 'Study/True errors=true'";
+  const Outcome outcome = shell(study);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  const std::string csv = read("study.csv");
+  EXPECT_EQ(csv.find("scene,Mesh/Degree,solved"), 0u) << csv;
+  for (const char* const row : {"\n\"hairline\",1,1", "\n\"fast, thin\",2,1"})
+    EXPECT_NE(csv.find(row), std::string::npos) << row;
+  EXPECT_NE(shell(study).text.find("fast, thin  Mesh/Degree = 2  (done before)"),
+            std::string::npos);
+  EXPECT_EQ(read("study.csv"), csv);
+  EXPECT_EQ(shell("$rollwave " + scene + " --set 'Study/Scenes=Road/Distance = 0.9'").exit_code, 1);
+}
+
+TEST(Study, ScenesOfTheExtremesAreAdmitted) {
+  const Parameters parameters =
+      read_parameters(read_settings(ROLLWAVE_PRM_DIRECTORY "/studies/extremes.prm"));
+  EXPECT_GT(parameters.study.scenes.size(), 40u);
+  for (const auto& named : parameters.study.scenes) {
+    std::vector<Setting> settings = parameters.settings;
+    settings.insert(settings.end(), named.settings.begin(), named.settings.end());
+    EXPECT_NO_THROW(make_scene(read_parameters(settings))) << named.name;
+  }
+}
+
 class ShippedFile : public Program, public testing::WithParamInterface<std::string> {};
 
 TEST_P(ShippedFile, Runs) {
@@ -290,7 +322,9 @@ TEST_P(ShippedFile, Runs) {
   const Outcome outcome =
       shell("$rollwave '" ROLLWAVE_PRM_DIRECTORY "/" + GetParam() + "' --output '" +
             (directory / "out").string() + "'" +
-            (is_long ? " --set 'Study/Vary=Mesh/Degree = 1 | 2; " + meshes + "'" : std::string()));
+            (is_long ? " --set Study/Scenes= --set 'Study/Vary=Mesh/Degree = 1 | 2; " + meshes + "'"
+                     : std::string()));
+  // A study says of each run whether it reached the accuracy that its file wants.
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(has("summary.json") || has("study.csv"));
 }
