@@ -48,7 +48,7 @@ private:
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   std::unique_ptr<SparseCholesky> cholesky;
   std::unique_ptr<SchurComplement> schur;
-  std::vector<double> reduced_load;    ///< L^-1 P f; empty for f = 0
+  std::vector<double> reduced_load;    ///< L^-1 f; empty for f = 0
   dealii::Vector<double> contact_load; ///< g, by place
 };
 

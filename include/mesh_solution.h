@@ -11,9 +11,9 @@ namespace rollwave {
 struct MeshSolution {
   ContactProblem problem;
   ContactSolution contact;
-  FieldVector displacement;      ///< u_h
-  FieldVector stiffness_times_u; ///< K u_h
-  double round_off;              ///< |K du|_2, du what rounding u_h may change
+  FieldVector displacement; ///< u_h
+  Energy energy;            ///< of u_h
+  Residuals residuals;
 };
 
 /// Solves @p scene on @p space by the methods of @p parameters, beginning with the contact
@@ -23,8 +23,8 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
                            const dealii::Vector<double>& start, MeshSystem& system, Work& work);
 
 /// Fills in what @p result tells of a solution on one mesh, and adds to its cycles.
-void measure(const Scene& scene, const RingSpace& space, const MeshSystem& system,
-             const MeshSolution& solution, Result& result);
+void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
+             Result& result);
 
 } // namespace rollwave
 

@@ -1,20 +1,20 @@
 #ifndef ROLLWAVE_NESTED_DISSECTION_H
 #define ROLLWAVE_NESTED_DISSECTION_H
 
-#include "ring_space.h"
+#include <deal.II/dofs/dof_handler.h>
 
 #include <vector>
 
 namespace rollwave {
 
 /**
- * For each degree of freedom the group in which nested dissection eliminates it (A. George, SIAM J.
- * Numer. Anal. 10 (1973) 345-363). The ring is halved again and again along lines of the mesh,
- * across its longer side in cells; the nodes on these lines belong to the group of their
- * halving, the earlier the higher. Group 0 is what lies inside the last boxes, which are a few
- * cells of the node's own size.
+ * The place of each degree of freedom in an order of elimination by nested dissection (A. George,
+ * SIAM J. Numer. Anal. 10 (1973) 345-363). The ring is cut at the seam and halved again and again
+ * along lines of the mesh, across its longer side in coarse cells; of each part both halves come
+ * first and the nodes on the line between them last. The last parts are single nodes.
  */
-std::vector<int> dissect(const RingSpace& space);
+std::vector<dealii::types::global_dof_index>
+number_by_dissection(const dealii::DoFHandler<2>& handler);
 
 } // namespace rollwave
 

@@ -22,59 +22,48 @@ struct LowerTriplets {
 };
 
 /**
- * The factorisation P K P^T = L L^T of a sparse symmetric positive definite matrix K of n rows,
- * which eliminates groups of unknowns one after another and the last m unknowns last, in their
- * order:
+ * The factorisation K = L L^T of a sparse symmetric positive definite matrix K of n rows by
+ * CHOLMOD's supernodal method (Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, ACM Trans.
+ * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. Of the last m
+ * unknowns it gives the Schur complement S too:
  *
  *         ( L_ii       )                        T
- *     L = (            ),     S = L_cc   L_cc
+ *     L = (            ),     S = L_cc   L_cc   = K_cc - K_ci K_ii^-1 K_ic.
  *         ( L_ci  L_cc )
- *
- * where the m x m matrix S is the Schur complement of the leading unknowns. By CHOLMOD's supernodal
- * method with constrained approximate minimum degree ordering (Y. Chen, T. A. Davis, W. W. Hager
- * and S. Rajamanickam, ACM Trans. Math. Softw. 35 (2008) 22).
  */
 class SparseCholesky {
 public:
-  /// The order of two unknowns is free within a group, and else that of their @p groups: n numbers
-  /// from 0 on, of which the last m have no meaning.
-  SparseCholesky(std::vector<int> groups, int m);
+  explicit SparseCholesky(int n);
   ~SparseCholesky();
 
-  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, analyses it,
-  /// after ordering the first one. @return whether it did. @throws NotSolved when memory is short.
+  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, analyses it.
+  /// @return whether it did. @throws NotSolved when memory is short.
   bool set_matrix(const LowerTriplets& triplets);
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
   void factorise();
 
-  std::size_t size() const { return n; }
+  int size() const { return n; }
 
   /// K x
-  std::vector<double> multiply(const std::vector<double>& x) const;
+  std::vector<double> multiply(std::vector<double> x) const;
 
-  /// y = L^-1 P b, of size n; its last m entries belong to the trailing unknowns.
-  std::vector<double> forward(const std::vector<double>& b);
+  /// L^-1 b
+  std::vector<double> forward(std::vector<double> b);
 
-  /// P^T L^-T y
-  std::vector<double> backward(const std::vector<double>& y);
+  /// L^-T y
+  std::vector<double> backward(std::vector<double> y);
 
   /// L_cc, m x m, with zeros above the diagonal.
-  dealii::FullMatrix<double> trailing_factor() const;
+  dealii::FullMatrix<double> trailing_factor(int m) const;
 
   /// Entries of L, zeros within supernodes included.
   double n_factor_entries() const;
 
 private:
   struct Cholmod;
-  std::vector<double> to_order(const std::vector<double>& x) const;
-  std::vector<double> from_order(const std::vector<double>& x) const;
-
   std::unique_ptr<Cholmod> cholmod;
-  std::size_t n;
-  int m;
-  std::vector<int> groups; ///< until the first matrix is ordered
-  std::vector<int> order;  ///< which unknown is eliminated as the k-th; empty without a matrix
+  int n;
 };
 
 } // namespace rollwave

@@ -14,7 +14,7 @@ class Work {
 public:
   unsigned int load_assemblies = 0;
   unsigned int stiffness_assemblies = 0;
-  unsigned int orderings = 0;            ///< of sparse matrices, with their symbolic analysis
+  unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
   unsigned int factorisations = 0;       ///< of sparse matrices
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;

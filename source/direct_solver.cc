@@ -1,11 +1,11 @@
 #include "direct_solver.h"
 
 #include "memory.h"
-#include "nested_dissection.h"
 #include "scene.h"
 #include "stiffness_triplets.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace rollwave {
 
@@ -46,14 +46,8 @@ void DirectSolver::factorise(const Scene& scene) {
       ++work->stiffness_assemblies;
     }
     const Work::Phase phase(*work, "ordering");
-    if (!cholesky) {
-      std::vector<int> groups(space.n_unknowns());
-      const std::vector<int> group_of_dof = dissect(space);
-      for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-        if (unknown_of_dof[dof] >= 0)
-          groups[unknown_of_dof[dof]] = group_of_dof[dof];
-      cholesky = std::make_unique<SparseCholesky>(std::move(groups), m);
-    }
+    if (!cholesky)
+      cholesky = std::make_unique<SparseCholesky>(space.n_unknowns());
     if (cholesky->set_matrix(triplets))
       ++work->orderings;
   }
@@ -62,7 +56,7 @@ void DirectSolver::factorise(const Scene& scene) {
                  "the factor of the stiffness matrix with " + std::to_string(m) + " contact nodes");
   cholesky->factorise();
   ++work->factorisations;
-  schur = std::make_unique<SchurComplement>(cholesky->trailing_factor());
+  schur = std::make_unique<SchurComplement>(cholesky->trailing_factor(m));
   angular_velocity = scene.angular_velocity;
 }
 
@@ -99,13 +93,13 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(*work, "back-substitution");
-  std::vector<double> rhs =
-      reduced_load.empty() ? std::vector<double>(space.n_unknowns(), 0.) : reduced_load;
+  std::vector<double> rhs = reduced_load;
+  rhs.resize(space.n_unknowns());
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
   const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
-  return scatter(cholesky->backward(rhs));
+  return scatter(cholesky->backward(std::move(rhs)));
 }
 
 FieldVector DirectSolver::apply(const FieldVector& field) const {

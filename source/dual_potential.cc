@@ -2,7 +2,6 @@
 
 #include "edge_constraints.h"
 #include "memory.h"
-#include "nested_dissection.h"
 #include "potential_shapes.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -94,7 +93,7 @@ FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
   for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
     if (unknown_of_dof[dof] >= 0)
       unknowns[unknown_of_dof[dof]] = rhs(dof);
-  unknowns = cholesky->backward(cholesky->forward(unknowns));
+  unknowns = cholesky->backward(cholesky->forward(std::move(unknowns)));
   ++work.forward_substitutions;
   ++work.back_substitutions;
   FieldVector potential = space.make_field();
@@ -110,14 +109,11 @@ void DualPotential::factorise(const Scene& scene, RadialShapesOfMesh& shapes,
   angular_velocity.reset(); // until the factor is there
   if (!cholesky) {
     unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
-    const std::vector<int> group_of_dof = dissect(space);
-    std::vector<int> groups; // of the unknowns
+    int n_unknowns = 0;
     for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-      if (!constraints.is_constrained(dof)) {
-        unknown_of_dof[dof] = groups.size();
-        groups.push_back(group_of_dof[dof]);
-      }
-    cholesky = std::make_unique<SparseCholesky>(std::move(groups), 0);
+      if (!constraints.is_constrained(dof))
+        unknown_of_dof[dof] = n_unknowns++;
+    cholesky = std::make_unique<SparseCholesky>(n_unknowns);
   }
   {
     TripletAssembler assembler(space, constraints, unknown_of_dof);

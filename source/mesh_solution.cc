@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 namespace rollwave {
 
@@ -48,10 +49,10 @@ double relative(double part, double whole) {
 }
 
 Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
-                            const ContactSolution& solution, const FieldVector& stiffness_times_u,
+                            const ContactSolution& solution, FieldVector stiffness_times_u,
                             const std::optional<FieldVector>& load, double round_off) {
   const auto& [displacement, force] = solution.state;
-  FieldVector imbalance = stiffness_times_u;
+  FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
     imbalance -= *load;
   for (unsigned int i = 0; i < problem.size(); ++i)
@@ -120,21 +121,24 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
         remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
   solution.displacement = solver->displacement_field(solution.contact.state);
   const Work::Phase phase(work, "measurement");
-  solution.stiffness_times_u = solver->apply(solution.displacement);
-  solution.round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
+  const double round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
+  FieldVector stiffness_times_u = solver->apply(solution.displacement);
+  const double norm_squared = solution.displacement * stiffness_times_u;
+  const double work_of_force = system.load ? solution.displacement * *system.load : 0.;
+  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  solution.residuals = measure_residuals(space, solution.problem, solution.contact,
+                                         std::move(stiffness_times_u), system.load, round_off);
   return solution;
 }
 
-void measure(const Scene& scene, const RingSpace& space, const MeshSystem& system,
-             const MeshSolution& solution, Result& result) {
+void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
+             Result& result) {
   const Work::Phase phase(result.work, "measurement");
-  const auto& [problem, contact, displacement, stiffness_times_u, round_off] = solution;
-  const auto& load = system.load;
-  const double norm_squared = displacement * stiffness_times_u;
+  const auto& [problem, contact, displacement, energy, residuals] = solution;
   result.mesh = describe_mesh(space);
   result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);
-  result.energy = {norm_squared / 2 - (load ? displacement * *load : 0.), norm_squared};
-  result.residuals = measure_residuals(space, problem, contact, stiffness_times_u, load, round_off);
+  result.energy = energy;
+  result.residuals = residuals;
   result.contact_rows = tabulate_contact(space, problem, contact.state);
   result.surface = tabulate_surface(space, displacement);
   result.history = contact.history;

@@ -1,12 +1,14 @@
 #include "nested_dissection.h"
 
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <utility>
 
 namespace rollwave {
 
@@ -14,45 +16,78 @@ using namespace dealii;
 
 namespace {
 
-/// Numbers of nodes along a side of a box that is left to the minimum degree ordering.
-constexpr double nodes_in_last_box = 10;
+/// The way of a node through the halvings, two bits for each, the first halving in the highest: 0
+/// for the lower half, 1 for the upper one, 2 for the line between them, which comes after both.
+/// The order of the numbers is that of elimination. The codes of both directions together, which
+/// have their bits at different halvings, are the code of the node.
+using Code = std::uint64_t;
 
-/// How often an interval is halved at most: cells cannot be smaller.
-constexpr int most_halvings = 64;
+constexpr Code upper = 1, between = 2;
+constexpr int seam_shift = 62; ///< of the cut at the seam, before all halvings
+
+/// Where the bits of the halvings of each direction are, at first those of its first halving: the
+/// part is always halved across its longer side. Parts beyond the last bits are not told apart,
+/// which costs a little fill and nothing else.
+std::array<std::vector<int>, 2> schedule(std::array<double, 2> sides) {
+  std::array<std::vector<int>, 2> shifts;
+  for (int shift = seam_shift - 2; shift >= 0; shift -= 2) {
+    const unsigned int longer = sides[1] >= sides[0];
+    shifts[longer].push_back(shift);
+    sides[longer] /= 2;
+  }
+  return shifts;
+}
 
 /// An interval of coarse cells that is halved again and again, first along the lines between coarse
 /// cells, then in their middles.
 class Bisection {
 public:
-  explicit Bisection(unsigned int n_cells) : of_line(n_cells + 1, 0), of_cell(n_cells, 0) {
-    halve(0, n_cells, 1);
+  /// @param is_closed whether both ends are the seam
+  Bisection(unsigned int n_cells, const std::vector<int>& shifts, bool is_closed)
+      : shifts(shifts), of_line(n_cells + 1, 0), of_cell(n_cells) {
+    halve(0, n_cells, 0, 0);
+    for (const int shift : shifts)
+      of_line.back() |= upper << shift; // the upper end is always in the upper half
+    if (is_closed)
+      of_line.front() = of_line.back() = between << seam_shift;
   }
 
-  /// In which halving, the first being 1, the line at @p place comes up; 0 for both ends.
-  int halving(double place) const {
-    const double cell = std::floor(place);
-    if (place == cell)
-      return of_line[static_cast<unsigned int>(cell)];
-    int count = of_cell[static_cast<unsigned int>(cell)];
-    for (double rest = place - cell; rest != std::floor(rest); rest *= 2)
-      ++count;
-    return count;
+  /// The code of a line, whose @p place is in units of coarse cells.
+  Code code(double place) const {
+    const auto cell = static_cast<unsigned int>(place);
+    double rest = place - cell;
+    if (rest == 0)
+      return of_line[cell];
+    Code code = of_cell[cell].first;
+    for (unsigned int k = of_cell[cell].second; k < shifts.size(); ++k) {
+      rest *= 2;
+      if (rest == 1)
+        return code | between << shifts[k];
+      if (rest > 1) {
+        code |= upper << shifts[k];
+        rest -= 1;
+      }
+    }
+    return code;
   }
 
 private:
-  void halve(unsigned int begin, unsigned int end, int next) {
-    if (end - begin == 1) {
-      of_cell[begin] = next - 1;
+  /// @param k how many halvings have led to the cells from @p begin to @p end, with their @p code
+  void halve(unsigned int begin, unsigned int end, unsigned int k, Code code) {
+    if (end - begin == 1 || k == shifts.size()) {
+      std::fill(of_cell.begin() + begin, of_cell.begin() + end, std::pair(code, k));
+      std::fill(of_line.begin() + begin + 1, of_line.begin() + end, code);
       return;
     }
     const unsigned int middle = (begin + end) / 2;
-    of_line[middle] = next;
-    halve(begin, middle, next + 1);
-    halve(middle, end, next + 1);
+    of_line[middle] = code | between << shifts[k];
+    halve(begin, middle, k + 1, code);
+    halve(middle, end, k + 1, code | upper << shifts[k]);
   }
 
-  std::vector<int> of_line; ///< the halving of a line between coarse cells
-  std::vector<int> of_cell; ///< how many halvings leave a single coarse cell
+  const std::vector<int>& shifts;
+  std::vector<Code> of_line;
+  std::vector<std::pair<Code, unsigned int>> of_cell; ///< and how many halvings lead to the cell
 };
 
 /// The place of a cell in units of coarse cells, (radial, angular), exact in binary arithmetic.
@@ -75,93 +110,69 @@ Place place_of(const DoFHandler<2>::active_cell_iterator& cell, unsigned int n_r
   return place;
 }
 
-/// In which order the ring is halved in the two directions: always across its longer side.
-struct Schedule {
-  /// Which halving of the ring the k-th one in a direction is.
-  std::array<std::array<int, most_halvings + 1>, 2> step;
-  std::vector<double> longer_side; ///< of the boxes before each halving of the ring
+/// Places from 0 to 1 for the nodes 0 to @p degree along a side of a cell, such that halving the
+/// interval halves the nodes: exact ones for degree 2.
+std::vector<double> node_places(unsigned int degree) {
+  std::vector<double> places(degree + 1);
+  const auto halve = [&](const auto& self, unsigned int begin, unsigned int end) -> void {
+    const unsigned int middle = (begin + end) / 2;
+    if (middle == begin)
+      return;
+    places[middle] = (places[begin] + places[end]) / 2;
+    self(self, begin, middle);
+    self(self, middle, end);
+  };
+  places[degree] = 1;
+  halve(halve, 0, degree);
+  return places;
+}
 
-  Schedule(double radial_side, double angular_side) {
-    std::array<double, 2> sides = {{radial_side, angular_side}};
-    std::array<int, 2> count = {{0, 0}};
-    for (auto& steps : step)
-      steps.fill(std::numeric_limits<int>::max());
-    for (int number = 0; number < most_halvings; ++number) {
-      const unsigned int longer = sides[1] >= sides[0];
-      longer_side.push_back(sides[longer]);
-      step[longer][++count[longer]] = number;
-      sides[longer] /= 2;
-    }
-  }
-
-  /// How many halvings leave boxes with sides no longer than @p size.
-  int n_halvings(double size) const {
-    return std::partition_point(longer_side.begin(), longer_side.end(),
-                                [size](double side) { return side > size; }) -
-           longer_side.begin();
-  }
-};
-
-} // namespace
-
-std::vector<int> dissect(const RingSpace& space) {
-  const auto& handler = space.dof_handler();
-  const auto& triangulation = handler.get_triangulation();
-  const auto& element = dynamic_cast<const FE_Q<2>&>(handler.get_fe());
-  const unsigned int degree = element.degree, n = degree + 1;
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-
-  unsigned int n_radial = 0;
+unsigned int count_radial_cells(const Triangulation<2>& triangulation) {
   const double first_angle = triangulation.begin(0)->vertex(0)[1];
+  unsigned int n_radial = 0;
   for (const auto& cell : triangulation.cell_iterators_on_level(0)) {
     if (cell->vertex(0)[1] != first_angle)
       break;
     ++n_radial;
   }
-  const unsigned int n_angular = triangulation.n_cells(0) / n_radial;
-  const std::array<Bisection, 2> bisections = {{Bisection(n_radial), Bisection(n_angular)}};
-  const Schedule schedule(n_radial, n_angular);
-  constexpr int seam = -1, none = std::numeric_limits<int>::max();
+  return n_radial;
+}
 
-  std::vector<int> steps(handler.n_dofs(), none);
+} // namespace
+
+std::vector<types::global_dof_index> number_by_dissection(const DoFHandler<2>& handler) {
+  const auto& triangulation = handler.get_triangulation();
+  const auto& element = dynamic_cast<const FE_Q<2>&>(handler.get_fe());
+  const unsigned int n = element.degree + 1;
+  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
+  const std::vector<double> places = node_places(element.degree);
+
+  const unsigned int n_radial = count_radial_cells(triangulation);
+  const unsigned int n_angular = triangulation.n_cells(0) / n_radial;
+  const auto shifts = schedule({{double(n_radial), double(n_angular)}});
+  const std::array<Bisection, 2> bisections = {
+      {Bisection(n_radial, shifts[0], false), Bisection(n_angular, shifts[1], true)}};
+
+  std::vector<std::pair<Code, types::global_dof_index>> codes(handler.n_dofs());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  std::array<std::vector<Code>, 2> lines = {{std::vector<Code>(n), std::vector<Code>(n)}};
   for (const auto& cell : handler.active_cell_iterators()) {
     const Place place = place_of(cell, n_radial);
-    const int last = schedule.n_halvings(place.size * nodes_in_last_box / degree);
-    // Of the nodes of a cell only those on its edges can lie on a line.
-    const auto step = [&](unsigned int direction, double line) {
-      const int halving = bisections[direction].halving(line);
-      if (halving == 0) // hub and surface, which are no lines, and the seam, which is the first
-        return direction == 1 ? seam : none;
-      const int of_ring = schedule.step[direction][std::min(halving, most_halvings)];
-      return of_ring < last ? of_ring : none;
-    };
-    std::array<std::array<int, 2>, 2> on_edge;
     for (const unsigned int direction : {0, 1})
-      on_edge[direction] = {{step(direction, place.low[direction]),
-                             step(direction, place.low[direction] + place.size)}};
+      for (unsigned int k = 0; k < n; ++k)
+        lines[direction][k] =
+            bisections[direction].code(place.low[direction] + place.size * places[k]);
     cell->get_dof_indices(dofs);
-    const auto of_node = [&](unsigned int direction, unsigned int k) {
-      return k == 0 ? on_edge[direction][0] : k == degree ? on_edge[direction][1] : none;
-    };
     for (unsigned int i = 0; i < dofs.size(); ++i) {
-      int& known = steps[dofs[numbering[i]]];
-      known = std::min({known, of_node(0, i % n), of_node(1, i / n)});
+      const auto dof = dofs[numbering[i]];
+      codes[dof] = {lines[0][i % n] | lines[1][i / n], dof};
     }
   }
-
-  // Later halvings come first; group 0 is what lies on no line.
-  for (int& entry : steps)
-    entry = entry == none ? 0 : most_halvings - entry;
-  std::vector<int> rank(most_halvings + 2, 0);
-  for (const int entry : steps)
-    rank[entry] = 1;
-  rank[0] = 0;
-  for (unsigned int group = 1, next = 1; group < rank.size(); ++group)
-    rank[group] = rank[group] ? next++ : 0;
-  for (int& entry : steps)
-    entry = rank[entry];
-  return steps;
+  std::sort(codes.begin(), codes.end());
+  std::vector<types::global_dof_index> numbers(codes.size());
+  for (unsigned int number = 0; number < codes.size(); ++number)
+    numbers[codes[number].second] = number;
+  return numbers;
 }
 
 } // namespace rollwave

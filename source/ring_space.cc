@@ -1,6 +1,7 @@
 #include "ring_space.h"
 
 #include "errors.h"
+#include "nested_dissection.h"
 #include "ring_mesh.h"
 #include "scene.h"
 
@@ -21,6 +22,7 @@ using namespace dealii;
 RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, unsigned int degree)
     : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
+  handler.renumber_dofs(number_by_dissection(handler));
 
   // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
   // the seam twice.

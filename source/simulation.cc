@@ -136,7 +136,7 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
         solve_on_mesh(scene, parameters, *solution.space,
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
                       solution.system, result.work);
-    measure(scene, *solution.space, solution.system, on_mesh, result);
+    measure(scene, *solution.space, on_mesh, result);
     if (!is_used_again)
       solution.system.stiffness = {};
     if (certifies && (is_last || wants_error || indicator == Indicator::certificate))

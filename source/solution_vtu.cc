@@ -55,6 +55,7 @@ DeformedCylinder::DeformedCylinder(const Solution& solution, double unit) {
   // Behind the data the places of the points
   const unsigned int x_row = names.size(), y_row = x_row + 1;
 
+  patches.reserve(space.dof_handler().get_triangulation().n_active_cells());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     values.reinit(cell);
     cell->get_dof_indices(dofs);

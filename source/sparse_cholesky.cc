@@ -7,8 +7,8 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <numeric>
 #include <string>
+#include <utility>
 
 namespace rollwave {
 
@@ -22,8 +22,8 @@ struct SparseCholesky::Cholmod {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
-    // The matrix is handed over in its final order, so that CHOLMOD makes no copy of it; its
-    // postordering could mix the trailing unknowns with others.
+    // In the order given CHOLMOD makes no copy of the matrix, and does not mix the trailing
+    // unknowns with others.
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_NATURAL;
     common.postorder = 0;
@@ -58,33 +58,21 @@ struct SparseCholesky::Cholmod {
                       std::to_string(common.status));
   }
 
-  /// The upper triangle of the matrix. @throws NotSolved when memory is short.
+  /// The lower triangle of the matrix. @throws NotSolved when memory is short.
   cholmod_sparse* sum_up(const LowerTriplets& triplets, std::size_t n) {
     cholmod_triplet view = {};
     view.nrow = view.ncol = n;
     view.nnz = view.nzmax = triplets.values.size();
-    view.i = const_cast<int*>(triplets.columns.data());
-    view.j = const_cast<int*>(triplets.rows.data());
+    view.i = const_cast<int*>(triplets.rows.data());
+    view.j = const_cast<int*>(triplets.columns.data());
     view.x = const_cast<double*>(triplets.values.data());
-    view.stype = 1;
+    view.stype = -1;
     view.itype = CHOLMOD_INT;
     view.xtype = CHOLMOD_REAL;
     view.dtype = CHOLMOD_DOUBLE;
     cholmod_sparse* const sum = cholmod_triplet_to_sparse(&view, 0, &common);
     check("assembly");
     return sum;
-  }
-
-  /// Makes the lower triangle of P K P^T the matrix, and frees @p upper. Returns whether the
-  /// pattern stays as it was.
-  bool set(cholmod_sparse* upper, std::vector<int>& order) {
-    cholmod_sparse* next = cholmod_ptranspose(upper, 1, order.data(), nullptr, 0, &common);
-    cholmod_free_sparse(&upper, &common);
-    check("assembly");
-    std::swap(matrix, next);
-    const bool is_same = next != nullptr && has_pattern_of(*next);
-    cholmod_free_sparse(&next, &common);
-    return is_same;
   }
 
   bool has_pattern_of(const cholmod_sparse& other) const {
@@ -94,47 +82,26 @@ struct SparseCholesky::Cholmod {
            std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(other.i));
   }
 
-  /// Solves with one of the systems L, Lt, P, Pt.
-  std::vector<double> solve(int system, const std::vector<double>& rhs) {
-    cholmod_dense b = view(const_cast<double*>(rhs.data()), rhs.size());
-    cholmod_dense* x = cholmod_solve(system, factor, &b, &common);
-    check("solution");
-    const double* const values = static_cast<const double*>(x->x);
-    std::vector<double> result(values, values + rhs.size());
-    cholmod_free_dense(&x, &common);
-    return result;
-  }
-
-  static cholmod_dense view(double* values, std::size_t size) {
+  static cholmod_dense view(std::vector<double>& values) {
     cholmod_dense dense = {};
-    dense.nrow = dense.nzmax = dense.d = size;
+    dense.nrow = dense.nzmax = dense.d = values.size();
     dense.ncol = 1;
-    dense.x = values;
+    dense.x = values.data();
     dense.xtype = CHOLMOD_REAL;
     dense.dtype = CHOLMOD_DOUBLE;
     return dense;
   }
 };
 
-SparseCholesky::SparseCholesky(std::vector<int> groups, int m)
-    : cholmod(std::make_unique<Cholmod>()), n(groups.size()), m(m), groups(std::move(groups)) {
-  const auto trailing = this->groups.end() - m;
-  const bool has_leading = trailing != this->groups.begin();
-  const int last_group = has_leading ? 1 + *std::max_element(this->groups.begin(), trailing) : 0;
-  std::fill(trailing, this->groups.end(), last_group);
-}
+SparseCholesky::SparseCholesky(int n) : cholmod(std::make_unique<Cholmod>()), n(n) {}
 
 bool SparseCholesky::set_matrix(const LowerTriplets& triplets) {
   cholmod_common& common = cholmod->common;
-  cholmod_sparse* const matrix = cholmod->sum_up(triplets, n);
-  if (order.empty()) {
-    order.resize(n);
-    cholmod_camd(matrix, nullptr, 0, groups.data(), order.data(), &common);
-    cholmod->check("ordering");
-    std::iota(order.end() - m, order.end(), n - m);
-    groups = {};
-  }
-  if (cholmod->set(matrix, order))
+  cholmod_sparse* before = cholmod->sum_up(triplets, n);
+  std::swap(cholmod->matrix, before);
+  const bool has_known_pattern = before != nullptr && cholmod->has_pattern_of(*before);
+  cholmod_free_sparse(&before, &common);
+  if (has_known_pattern)
     return false;
   cholmod_free_factor(&cholmod->factor, &common);
   cholmod->factor = cholmod_analyze(cholmod->matrix, &common);
@@ -168,50 +135,44 @@ void SparseCholesky::factorise() {
   release_freed_memory();
   const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
+  cholmod_free_work(&cholmod->common);
   cholmod->check("factorisation");
 }
 
-std::vector<double> SparseCholesky::multiply(const std::vector<double>& x) const {
-  std::vector<double> permuted = to_order(x), product(x.size());
-  cholmod_dense source = Cholmod::view(permuted.data(), x.size());
-  cholmod_dense target = Cholmod::view(product.data(), x.size());
+std::vector<double> SparseCholesky::multiply(std::vector<double> x) const {
+  std::vector<double> product(x.size());
+  cholmod_dense source = Cholmod::view(x), target = Cholmod::view(product);
   double one[2] = {1, 0}, zero[2] = {0, 0};
   cholmod_sdmult(cholmod->matrix, 0, one, zero, &source, &target, &cholmod->common);
-  return from_order(product);
+  return product;
 }
 
-std::vector<double> SparseCholesky::forward(const std::vector<double>& b) {
-  return cholmod->solve(CHOLMOD_L, to_order(b));
+// cholmod_solve() would make two more copies of a large vector.
+
+std::vector<double> SparseCholesky::forward(std::vector<double> b) {
+  std::vector<double> workspace(cholmod->factor->maxesize);
+  cholmod_dense x = Cholmod::view(b), e = Cholmod::view(workspace);
+  cholmod_super_lsolve(cholmod->factor, &x, &e, &cholmod->common);
+  cholmod->check("solution");
+  return b;
 }
 
-std::vector<double> SparseCholesky::backward(const std::vector<double>& y) {
-  return from_order(cholmod->solve(CHOLMOD_Lt, y));
+std::vector<double> SparseCholesky::backward(std::vector<double> y) {
+  std::vector<double> workspace(cholmod->factor->maxesize);
+  cholmod_dense x = Cholmod::view(y), e = Cholmod::view(workspace);
+  cholmod_super_ltsolve(cholmod->factor, &x, &e, &cholmod->common);
+  cholmod->check("solution");
+  return y;
 }
 
-/// P x
-std::vector<double> SparseCholesky::to_order(const std::vector<double>& x) const {
-  std::vector<double> permuted(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k)
-    permuted[k] = x[order[k]];
-  return permuted;
-}
-
-/// P^T x
-std::vector<double> SparseCholesky::from_order(const std::vector<double>& x) const {
-  std::vector<double> permuted(x.size());
-  for (std::size_t k = 0; k < x.size(); ++k)
-    permuted[order[k]] = x[k];
-  return permuted;
-}
-
-dealii::FullMatrix<double> SparseCholesky::trailing_factor() const {
+dealii::FullMatrix<double> SparseCholesky::trailing_factor(int m) const {
   const cholmod_factor& factor = *cholmod->factor;
   const int* const first_columns = static_cast<const int*>(factor.super);
   const int* const row_starts = static_cast<const int*>(factor.pi);
   const int* const value_starts = static_cast<const int*>(factor.px);
   const int* const rows = static_cast<const int*>(factor.s);
   const double* const values = static_cast<const double*>(factor.x);
-  const int first = static_cast<int>(n) - m;
+  const int first = n - m;
 
   dealii::FullMatrix<double> trailing(m, m);
   for (std::size_t s = 0; s < factor.nsuper; ++s) {

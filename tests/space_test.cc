@@ -2,6 +2,7 @@
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/dofs/dof_tools.h>
 
 #include <gtest/gtest.h>
 
@@ -54,6 +55,30 @@ TEST_P(Space, ListsTheContactNodesOfTheZoneInOrder) {
     EXPECT_LE(node.angle, scene.zone_end + 1e-12);
     previous = node.angle;
   }
+}
+
+// Each half of the ring, then the line between them, then the seam, on a refined mesh too.
+TEST_P(Space, NumbersNodesByDissection) {
+  const Scene scene = make_scene(parameters);
+  Discretisation ring(scene, parameters);
+  for (int level = 0; level < 3; ++level) {
+    for (const auto& cell : ring.triangulation->active_cell_iterators())
+      if (std::abs(cell->center()[1] - 3 * PI / 2) < PI / (1 << level))
+        cell->set_refine_flag();
+    ring.triangulation->execute_coarsening_and_refinement();
+  }
+  const RingSpace space(*ring.triangulation, scene, GetParam());
+  std::vector<dealii::Point<2>> points(space.dof_handler().n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(space.mapping(), space.dof_handler(), points);
+  int previous = 0;
+  for (const auto& point : points) {
+    const double turns = (point[1] - PI / 2) / (2 * PI);
+    const auto lies_at = [turns](double place) { return std::abs(turns - place) < 1e-12; };
+    const int part = lies_at(0) || lies_at(1) ? 3 : lies_at(0.5) ? 2 : turns > 0.5;
+    EXPECT_GE(part, previous);
+    previous = part;
+  }
+  EXPECT_EQ(previous, 3);
 }
 
 TEST_P(Space, AdmitsAZoneAcrossTheSeam) {
