@@ -77,7 +77,8 @@ struct TrueErrors {
   double half_width;           ///< |w - w_h|
 
   /// sqrt(a(u - v, u - v)) of the feasible displacement v that the certificate speaks of, and the
-  /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate.
+  /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate, and
+  /// J(v) - J(u) is not lost in the accuracy of J(u).
   std::optional<double> feasible_energy_norm;
   std::optional<double> effectivity;
 

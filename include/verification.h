@@ -9,8 +9,8 @@
 
 namespace rollwave {
 
-/// The exact solution of a scene; nullopt where there is none: a force that is not constant, or a
-/// zone that cuts the contact short on one side or unevenly. @throws NotSolved as solve_exactly().
+/// The exact solution of a scene; nullopt where there is none: a force that is not constant, a zone
+/// that cuts the contact short on one side or unevenly, or a series that does not settle.
 std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Parameters& parameters);
 
 /// Prints our numbers beside the exact ones, with their differences, in the user's lengths.

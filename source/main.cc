@@ -48,8 +48,9 @@ void run(const CommandLine& line) {
                               solution.certificate, exact_reference(*exact));
       report_verification(std::cout, scene, solution.result, *exact);
     } else
-      std::cout << "\nNo exact solution is known for this scene: its force is not constant, or its "
-                   "zone cuts the contact short unevenly.\n";
+      std::cout << "\nNo exact solution is known for this scene: its force is not constant, its "
+                   "zone cuts the contact short unevenly, or the contact is too long beside the "
+                   "thickness of the ring.\n";
   }
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(std::cout, solution.result.work, written);

@@ -111,9 +111,11 @@ std::map<std::string, double> figures_of(const Result& result) {
     figures["expected_order"] = result.errors->expected_order;
     if (result.errors->feasible_energy_norm) {
       figures["error_feasible"] = *result.errors->feasible_energy_norm;
-      figures["effectivity"] = *result.errors->effectivity;
-      figures["bound_over_error"] =
-          result.certified->energy_norm / *result.errors->feasible_energy_norm;
+      if (result.errors->effectivity)
+        figures["effectivity"] = *result.errors->effectivity;
+      if (*result.errors->feasible_energy_norm > 0)
+        figures["bound_over_error"] =
+            result.certified->energy_norm / *result.errors->feasible_energy_norm;
     }
   }
   if (result.certified) {

@@ -62,7 +62,8 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
     error["exact_half_width"] = result.errors->half_width;
     if (result.errors->feasible_energy_norm) {
       error["exact_feasible_energy_norm"] = *result.errors->feasible_energy_norm;
-      error["effectivity"] = *result.errors->effectivity;
+      if (result.errors->effectivity)
+        error["effectivity"] = *result.errors->effectivity;
     }
   }
   json["residuals"] = {{"equilibrium", result.residuals.equilibrium},

@@ -83,8 +83,9 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
     errors.feasible_energy_norm =
         energy_distance(reference, trace_of(space, certificate->trace), certified.norm_squared,
                         certified.norm_squared / 2 - energy);
-    errors.effectivity =
-        std::sqrt(std::max(0., energy - certified.lower_bound) / (energy - reference.energy));
+    if (energy > reference.energy)
+      errors.effectivity =
+          std::sqrt(std::max(0., energy - certified.lower_bound) / (energy - reference.energy));
   }
   return errors;
 }

@@ -2,6 +2,8 @@
 
 #include "report.h"
 
+#include "errors.h"
+
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table_handler.h>
 #include <deal.II/grid/tria.h>
@@ -24,12 +26,16 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Param
   const double narrow = std::min(left, right);
   if (narrow <= 0)
     return {};
-  const ExactSolution exact = solve_exactly(
-      {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-       parameters.road.distance / scene.unit, scene.uniform_force.value_or(0), narrow});
-  if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
+  try {
+    const ExactSolution exact = solve_exactly(
+        {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
+         parameters.road.distance / scene.unit, scene.uniform_force.value_or(0), narrow});
+    if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
+      return {};
+    return exact;
+  } catch (const NotSolved&) {
     return {};
-  return exact;
+  }
 }
 
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,

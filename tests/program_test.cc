@@ -317,8 +317,10 @@ TEST_P(ShippedFile, Runs) {
   const bool is_long = GetParam().find("studies/") == 0;
   const bool is_adaptive = GetParam().find("order-") == std::string::npos &&
                            GetParam().find("time-") == std::string::npos;
-  const std::string meshes =
-      is_adaptive ? "Mesh/Most unknowns = 200 | 800" : "Mesh/Global refinements = 0 | 1 | 2 | 3";
+  const bool has_scenes = GetParam().find("extremes") != std::string::npos;
+  const std::string meshes = has_scenes    ? "Mesh/Radial cells = 4"
+                             : is_adaptive ? "Mesh/Most unknowns = 200 | 800"
+                                           : "Mesh/Global refinements = 0 | 1 | 2 | 3";
   const Outcome outcome =
       shell("$rollwave '" ROLLWAVE_PRM_DIRECTORY "/" + GetParam() + "' --output '" +
             (directory / "out").string() + "'" +

@@ -1,0 +1,137 @@
+// Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
+#include "manufactured_scene.h"
+#include "test_scenes.h"
+#include "true_errors.h"
+#include "verification.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace rollwave;
+
+namespace {
+
+std::string assignment(const char* key, double value) {
+  char text[100];
+  std::snprintf(text, sizeof text, "%s=%.17g", key, value);
+  return text;
+}
+
+/// A scene with a force, all its lengths multiplied by @p scale.
+Result solve_scaled(double scale) {
+  const Parameters parameters = parameters_of(
+      {assignment("Cylinder/Inner radius", 0.45 * scale),
+       assignment("Cylinder/Outer radius", 1.1 * scale),
+       assignment("Cylinder/Angular velocity", 0.7 / scale),
+       assignment("Cylinder/Radial force", 0.25 / scale), assignment("Road/Distance", 0.9 * scale),
+       "Mesh/Radial cells=3", "Mesh/Angular cells=40", "Mesh/Adaptive cycles=3"});
+  const Scene scene = make_scene(parameters);
+  return to_lengths(simulate(scene, parameters).result, scene.unit);
+}
+
+TEST(Stability, PowersOfTwoChangeNoDigit) {
+  const Result one = solve_scaled(1);
+  for (const int power : {-490, -7, 1, 2, 490}) {
+    const double scale = std::ldexp(1., power);
+    SCOPED_TRACE(power);
+    const Result other = solve_scaled(scale);
+    EXPECT_EQ(other.patch.force, one.patch.force * scale);
+    EXPECT_EQ(other.patch.ends, one.patch.ends);
+    EXPECT_EQ(other.patch.peak_pressure, one.patch.peak_pressure);
+    EXPECT_EQ(other.energy.value, one.energy.value * scale * scale);
+    EXPECT_EQ(other.certified->energy_norm, one.certified->energy_norm * scale);
+    EXPECT_EQ(other.certified->lower_bound, one.certified->lower_bound * scale * scale);
+    EXPECT_EQ(other.mesh.dofs, one.mesh.dofs);
+    EXPECT_EQ(other.mesh.h_min, one.mesh.h_min * scale);
+    ASSERT_EQ(other.contact_rows.size(), one.contact_rows.size());
+    for (unsigned int i = 0; i < one.contact_rows.size(); ++i) {
+      EXPECT_EQ(other.contact_rows[i].angle, one.contact_rows[i].angle);
+      EXPECT_EQ(other.contact_rows[i].gap, one.contact_rows[i].gap * scale);
+      EXPECT_EQ(other.contact_rows[i].pressure, one.contact_rows[i].pressure);
+    }
+  }
+}
+
+TEST(Stability, AnyUnitOfLengthGivesTheSameScene) {
+  const Result one = solve_scaled(1);
+  for (const double scale : {1e-150, 1e-10, 1e10, 1e150}) {
+    SCOPED_TRACE(scale);
+    const Result other = solve_scaled(scale);
+    EXPECT_NEAR(other.patch.force / scale / one.patch.force, 1, 1e-12);
+    EXPECT_NEAR(other.energy.value / scale / scale / one.energy.value, 1, 1e-12);
+  }
+}
+
+TEST(Stability, BiactiveContactIsSolved) {
+  // u = phi without pressure on stretches of 0.2 beside the contact.
+  const ContactPressureSeries pressure(4.7, 0.4, 1, {0.3, 0.05});
+  for (const double omega : {0.5, 1.}) {
+    const double end_exponent = 0.5;
+    const ManufacturedScene made =
+        manufacture_scene(0.5, 1, omega, pressure, end_exponent, 0, 0.2, 3000);
+    double previous = 1;
+    for (const int cells : {60, 120, 240}) {
+      const Parameters parameters =
+          parameters_of({"Mesh/Radial cells=" + std::to_string(cells / 10),
+                         "Mesh/Angular cells=" + std::to_string(cells)});
+      const Solution solution = simulate(made.scene, parameters);
+      SCOPED_TRACE(testing::Message() << "omega " << omega << ", " << cells << " cells");
+      EXPECT_LE(solution.result.residuals.largest(), wanted_residual);
+      EXPECT_LE(solution.result.history.size(), 25u);
+      // phi grows like d^(3/2) at the ends of the pressure, within cells: the rules of the
+      // certificate resolve that so far.
+      const double slack = 2e-4 * made.exact.energy;
+      EXPECT_LE(solution.result.certified->lower_bound, made.exact.energy + slack);
+      EXPECT_GE(solution.result.certified->upper_bound, made.exact.energy - slack);
+      const double error =
+          measure_true_errors(*solution.space, solution.displacement, solution.result,
+                              solution.certificate, exact_reference(made.exact))
+              .relative_energy_norm;
+      EXPECT_LT(error, 0.6 * previous);
+      previous = error;
+    }
+  }
+}
+
+TEST(Stability, HairlineContactHasItsExactAnswer) {
+  for (const double depth : {1e-4, 1e-9, 1e-14})
+    for (const double speed : {0.5, 1.}) {
+      if (speed == 1 && depth < 1e-4)
+        continue; // takes minutes
+      SCOPED_TRACE(testing::Message() << depth << " deep at the speed " << speed);
+      const Parameters parameters = parameters_of(
+          {assignment("Road/Distance", 1 - depth), assignment("Cylinder/Angular velocity", speed),
+           "Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Wanted relative error=0.03"});
+      const Scene scene = make_scene(parameters);
+      const Result result = simulate(scene, parameters).result;
+      const auto exact = find_exact_solution(scene, parameters);
+      ASSERT_TRUE(exact);
+      EXPECT_TRUE(result.shortfall.empty()) << result.shortfall;
+      EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
+      EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
+      EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
+    }
+}
+
+TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
+  for (const double inner : {1e-6, 1e-3, 0.99, 0.9999}) {
+    SCOPED_TRACE(inner);
+    const double distance = inner > 0.5 ? (1 + inner) / 2 : 0.8;
+    const Parameters parameters = parameters_of(
+        {assignment("Cylinder/Inner radius", inner), assignment("Road/Distance", distance),
+         inner > 0.5 ? "Mesh/Radial cells=2" : "Mesh/Radial cells=12", "Mesh/Angular cells=120",
+         "Mesh/Wanted relative error=0.03", "Mesh/Most unknowns=60000"});
+    const Scene scene = make_scene(parameters);
+    const Result result = simulate(scene, parameters).result;
+    const auto exact = find_exact_solution(scene, parameters);
+    ASSERT_TRUE(exact);
+    EXPECT_TRUE(result.shortfall.empty()) << result.shortfall;
+    EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
+    EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
+    EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
+  }
+}
+
+} // namespace
