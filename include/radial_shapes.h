@@ -50,6 +50,7 @@ private:
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
   unsigned int n_points;
   std::map<std::pair<double, double>, RadialShapes> known;
+  std::map<std::pair<double, double>, RadialShapes>::const_iterator recent = known.end();
 };
 
 } // namespace rollwave

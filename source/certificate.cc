@@ -150,10 +150,12 @@ public:
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
         line_u[i] += angular.value[j] * u[i + n * j];
-        line_u_z[i] += angular.derivative[j] / length * u[i + n * j];
+        line_u_z[i] += angular.derivative[j] * u[i + n * j];
         line_psi[i] += angular.value[j] * psi[i + n * j];
-        line_psi_z[i] += angular.derivative[j] / length * psi[i + n * j];
+        line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
+      line_u_z[i] /= length;
+      line_psi_z[i] /= length;
     }
     const double z = low[1] + angular.t * length;
     const double height = high[0] - low[0];

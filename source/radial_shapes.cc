@@ -18,8 +18,14 @@ RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree,
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
   const auto key = std::pair(begin, end);
-  const auto found = known.find(key);
-  return found != known.end() ? found->second : known.emplace(key, make(begin, end)).first->second;
+  // Cells of a uniform mesh come from the inside out, one row after another.
+  if (recent == known.end() || ++recent == known.end())
+    recent = known.begin();
+  if (recent == known.end() || recent->first != key)
+    recent = known.find(key);
+  if (recent == known.end())
+    recent = known.emplace(key, make(begin, end)).first;
+  return recent->second;
 }
 
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
