@@ -179,7 +179,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
           for (unsigned int j = 0; j < n; ++j) {
             const double slope = angular_derivative(p, j) * factor;
             for (unsigned int i = 0; i < n; ++i)
-              cell_vector(i + n * j) += radial.potential(q, i) * slope;
+              cell_vector(i + n * j) += radial.shapes[q][i].potential * slope;
           }
         }
       }
