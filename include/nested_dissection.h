@@ -8,13 +8,12 @@
 namespace rollwave {
 
 /**
- * The place of each degree of freedom in an order of elimination by nested dissection (A. George,
- * SIAM J. Numer. Anal. 10 (1973) 345-363). The ring is cut at the seam and halved again and again
+ * The degrees of freedom in the order of elimination by nested dissection (A. George, SIAM J.
+ * Numer. Anal. 10 (1973) 345-363). The ring is cut at the seam and halved again and again
  * along lines of the mesh, across its longer side in coarse cells; of each part both halves come
  * first and the nodes on the line between them last. The last parts are single nodes.
  */
-std::vector<dealii::types::global_dof_index>
-number_by_dissection(const dealii::DoFHandler<2>& handler);
+std::vector<dealii::types::global_dof_index> dissect(const dealii::DoFHandler<2>& handler);
 
 } // namespace rollwave
 

@@ -14,11 +14,18 @@ namespace rollwave {
 
 struct Scene;
 
+/// Shape functions of one number at one point.
+struct RadialShape {
+  double value;       ///< of a displacement: L_i((r - begin)/(end - begin))
+  double derivative;  ///< d/dr of it
+  double potential;   ///< of a potential
+  double potential_s; ///< d/ds of it
+};
+
 /**
  * One-dimensional shape functions on the radial interval [begin, end] of a cell at the points of a
  * quadrature rule, i counting outwards: Lagrange polynomials L_i in r with nodes at Gauss-Lobatto
- * points for displacements, PotentialShapes for potentials. Entry (q, i) of a matrix is that of the
- * point q.
+ * points for displacements, PotentialShapes for potentials.
  */
 struct RadialShapes {
   double begin;
@@ -26,10 +33,7 @@ struct RadialShapes {
   std::vector<double> r;
   std::vector<double> weight; ///< of the rule for dr
   std::vector<double> alpha;
-  dealii::FullMatrix<double> value;       ///< L_i((r - begin)/(end - begin))
-  dealii::FullMatrix<double> derivative;  ///< d/dr of it
-  dealii::FullMatrix<double> potential;   ///< of a potential
-  dealii::FullMatrix<double> potential_s; ///< of a potential, d/ds
+  std::vector<std::vector<RadialShape>> shapes; ///< all numbers at each point
 
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;
@@ -49,6 +53,7 @@ private:
   const Scene& scene;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
   std::map<std::pair<double, double>, RadialShapes> known;
+  std::map<std::pair<double, double>, RadialShapes>::const_iterator recent = known.end();
 };
 
 } // namespace rollwave

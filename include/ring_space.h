@@ -37,8 +37,7 @@ struct SurfaceFace {
 
 /**
  * Continuous elements of one degree in (r, z): degrees of freedom, constraints (hanging nodes,
- * period, u = 0 on the hub) and the nodes on the surface. The degrees of freedom are numbered by
- * nested dissection, an order in which sparse factors of matrices on the space stay sparse.
+ * period, u = 0 on the hub) and the nodes on the surface.
  */
 class RingSpace {
 public:
@@ -66,6 +65,10 @@ public:
   /// The nodes in [z0, z1], a stretch of surface_nodes().
   const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
 
+  /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
+  /// space sparse, whatever their constraints: dissect().
+  const std::vector<dealii::types::global_dof_index>& elimination_order() const { return order; }
+
   /// A zero field.
   FieldVector make_field() const { return FieldVector(handler.n_dofs()); }
 
@@ -80,6 +83,7 @@ private:
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceNode> contact;
   std::vector<SurfaceFace> faces;
+  std::vector<dealii::types::global_dof_index> order;
 };
 
 } // namespace rollwave

@@ -10,9 +10,9 @@ namespace rollwave {
 
 struct Scene;
 
-/// The number of each degree of freedom among the unknowns, in their order but with the contact
-/// nodes last, those first where the road is farthest from the cylinder; -1 where a constraint
-/// holds.
+/// The number of each degree of freedom among the unknowns, in the order of elimination but with
+/// the contact nodes last, those first where the road is farthest from the cylinder; -1 where a
+/// constraint holds.
 std::vector<int> number_unknowns(const RingSpace& space, const Scene& scene);
 
 /// Adds up cell matrices to a matrix of the unknowns: constrained degrees of freedom are replaced

@@ -136,8 +136,8 @@ public:
     radial = &shapes.on(low[0], high[0]);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
-      u[i] = displacement(dofs[numbering[i]]);
-      psi[i] = potential(dofs[numbering[i]]);
+      u[i] = displacement.local_element(dofs[numbering[i]]);
+      psi[i] = potential.local_element(dofs[numbering[i]]);
     }
   }
 
@@ -151,10 +151,12 @@ public:
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
         line_u[i] += angular.value[j] * u[i + n * j];
-        line_u_z[i] += angular.derivative[j] / length * u[i + n * j];
+        line_u_z[i] += angular.derivative[j] * u[i + n * j];
         line_psi[i] += angular.value[j] * psi[i + n * j];
-        line_psi_z[i] += angular.derivative[j] / length * psi[i + n * j];
+        line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
+      line_u_z[i] /= length;
+      line_psi_z[i] /= length;
     }
     const double z = low[1] + angular.t * length;
     const double height = high[0] - low[0];
@@ -166,12 +168,14 @@ public:
       const double xi = (r - low[0]) / height;
       double v = correction.value * xi, v_r = correction.value / height,
              v_z = correction.slope * xi, psi_s = 0, psi_z = 0;
+      const RadialShape* const shapes_at = radial->shapes[q].data();
       for (unsigned int i = 0; i < n; ++i) {
-        v += radial->value(q, i) * line_u[i];
-        v_r += radial->derivative(q, i) * line_u[i];
-        v_z += radial->value(q, i) * line_u_z[i];
-        psi_s += radial->potential_s(q, i) * line_psi[i];
-        psi_z += radial->potential(q, i) * line_psi_z[i];
+        const RadialShape& shape = shapes_at[i];
+        v += shape.value * line_u[i];
+        v_r += shape.derivative * line_u[i];
+        v_z += shape.value * line_u_z[i];
+        psi_s += shape.potential_s * line_psi[i];
+        psi_z += shape.potential * line_psi_z[i];
       }
       double radial_flux = -psi_z / r;
       if (column) {

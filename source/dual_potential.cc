@@ -110,7 +110,7 @@ void DualPotential::factorise(const Scene& scene, RadialShapesOfMesh& shapes,
   if (!cholesky) {
     unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
     int n_unknowns = 0;
-    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+    for (const auto dof : space.elimination_order())
       if (!constraints.is_constrained(dof))
         unknown_of_dof[dof] = n_unknowns++;
     cholesky = std::make_unique<SparseCholesky>(n_unknowns);
@@ -179,7 +179,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
           for (unsigned int j = 0; j < n; ++j) {
             const double slope = angular_derivative(p, j) * factor;
             for (unsigned int i = 0; i < n; ++i)
-              cell_vector(i + n * j) += radial.potential(q, i) * slope;
+              cell_vector(i + n * j) += radial.shapes[q][i].potential * slope;
           }
         }
       }

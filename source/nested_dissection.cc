@@ -140,7 +140,7 @@ unsigned int count_radial_cells(const Triangulation<2>& triangulation) {
 
 } // namespace
 
-std::vector<types::global_dof_index> number_by_dissection(const DoFHandler<2>& handler) {
+std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
   const auto& triangulation = handler.get_triangulation();
   const auto& element = dynamic_cast<const FE_Q<2>&>(handler.get_fe());
   const unsigned int n = element.degree + 1;
@@ -169,10 +169,11 @@ std::vector<types::global_dof_index> number_by_dissection(const DoFHandler<2>& h
     }
   }
   std::sort(codes.begin(), codes.end());
-  std::vector<types::global_dof_index> numbers(codes.size());
-  for (unsigned int number = 0; number < codes.size(); ++number)
-    numbers[codes[number].second] = number;
-  return numbers;
+  std::vector<types::global_dof_index> order;
+  order.reserve(codes.size());
+  for (const auto& [code, dof] : codes)
+    order.push_back(dof);
+  return order;
 }
 
 } // namespace rollwave

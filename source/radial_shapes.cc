@@ -30,8 +30,14 @@ RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
   const auto key = std::pair(begin, end);
-  const auto found = known.find(key);
-  return found != known.end() ? found->second : known.emplace(key, make(begin, end)).first->second;
+  // Cells of a uniform mesh come from the inside out, one row after another.
+  if (recent == known.end() || ++recent == known.end())
+    recent = known.begin();
+  if (recent == known.end() || recent->first != key)
+    recent = known.find(key);
+  if (recent == known.end())
+    recent = known.emplace(key, make(begin, end)).first;
+  return recent->second;
 }
 
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
@@ -45,21 +51,16 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
   shapes.weight = rule.weight;
 
   const unsigned int n_q = shapes.r.size(), n = lagrange.size();
-  for (auto* const matrix :
-       {&shapes.value, &shapes.derivative, &shapes.potential, &shapes.potential_s})
-    matrix->reinit(n_q, n);
   std::vector<double> both(2);
   for (unsigned int q = 0; q < n_q; ++q) {
     const double r = shapes.r[q];
     shapes.alpha.push_back(scene.alpha(r));
     const std::vector<double> values = potential_shapes.values(r);
     const std::vector<double> derivatives = potential_shapes.depth_derivatives(r);
+    shapes.shapes.emplace_back();
     for (unsigned int i = 0; i < n; ++i) {
       lagrange[i].value((r - begin) / (end - begin), both);
-      shapes.value(q, i) = both[0];
-      shapes.derivative(q, i) = both[1] / (end - begin);
-      shapes.potential(q, i) = values[i];
-      shapes.potential_s(q, i) = derivatives[i];
+      shapes.shapes[q].push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});
     }
   }
   shapes.products = {FullMatrix<double>(n), FullMatrix<double>(n)};
@@ -67,9 +68,10 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j) {
         const double r = shapes.r[q], weight = shapes.weight[q];
-        shapes.products.stiffness(i, j) += shapes.potential_s(q, i) * shapes.potential_s(q, j) *
-                                           weight * r * shapes.alpha[q]; // ds = r alpha dr
-        shapes.products.mass(i, j) += shapes.potential(q, i) * shapes.potential(q, j) * weight / r;
+        const RadialShape &one = shapes.shapes[q][i], &other = shapes.shapes[q][j];
+        shapes.products.stiffness(i, j) +=
+            one.potential_s * other.potential_s * weight * r * shapes.alpha[q]; // ds = r alpha dr
+        shapes.products.mass(i, j) += one.potential * other.potential * weight / r;
       }
   return shapes;
 }

@@ -22,7 +22,6 @@ using namespace dealii;
 RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, unsigned int degree)
     : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
-  handler.renumber_dofs(number_by_dissection(handler));
 
   // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
   // the seam twice.
@@ -33,6 +32,7 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
                                            affine_constraints);
   affine_constraints.close();
   find_surface_nodes(scene);
+  order = dissect(handler);
 }
 
 unsigned int RingSpace::n_unknowns() const {

@@ -16,18 +16,10 @@ using namespace dealii;
 
 namespace {
 
-/// One patch for each cell, with the element's own nodes at their deformed places.
-class DeformedCylinder : public DataOutInterface<2> {
-public:
-  DeformedCylinder(const Solution& solution, double unit);
+using Patch = DataOutBase::Patch<2>;
 
-private:
-  const std::vector<DataOutBase::Patch<2>>& get_patches() const override { return patches; }
-  std::vector<std::string> get_dataset_names() const override { return names; }
-
-  std::vector<DataOutBase::Patch<2>> patches;
-  std::vector<std::string> names = {"displacement", "pressure"};
-};
+/// A piece of the file is as many cells: their patches take several times the memory of the mesh.
+constexpr std::size_t cells_in_piece = 50000;
 
 /// lambda on the surface, for each degree of freedom; not a number elsewhere.
 std::vector<float> nodal_pressure(const Solution& solution) {
@@ -41,26 +33,29 @@ std::vector<float> nodal_pressure(const Solution& solution) {
   return pressure;
 }
 
-DeformedCylinder::DeformedCylinder(const Solution& solution, double unit) {
-  const RingSpace& space = *solution.space;
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  // From the order of points in a patch, r running fastest, to the element's own order.
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  FEValues<2> values(space.mapping(), element, element.get_unit_support_points(),
-                     update_quadrature_points);
-  const std::vector<float> pressure = nodal_pressure(solution);
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  if (solution.certificate)
-    names.push_back("certified_error");
-  // Behind the data the places of the points
-  const unsigned int x_row = names.size(), y_row = x_row + 1;
+/// Makes a patch for each cell, with the element's own nodes at their deformed places.
+class DeformedCells {
+public:
+  DeformedCells(const Solution& solution, double unit)
+      : solution(solution), unit(unit), space(*solution.space),
+        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+        numbering(element.get_poly_space_numbering_inverse()),
+        values(space.mapping(), element, element.get_unit_support_points(),
+               update_quadrature_points),
+        pressure(nodal_pressure(solution)), dofs(element.n_dofs_per_cell()) {
+    if (solution.certificate)
+      names.push_back("certified_error");
+  }
 
-  patches.reserve(space.dof_handler().get_triangulation().n_active_cells());
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+  const std::vector<std::string>& dataset_names() const { return names; }
+
+  Patch patch(const DoFHandler<2>::active_cell_iterator& cell, unsigned int index) {
+    // Behind the data the places of the points
+    const unsigned int x_row = names.size(), y_row = x_row + 1;
     values.reinit(cell);
     cell->get_dof_indices(dofs);
-    DataOutBase::Patch<2> patch;
-    patch.patch_index = patches.size();
+    Patch patch;
+    patch.patch_index = index;
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
@@ -85,21 +80,44 @@ DeformedCylinder::DeformedCylinder(const Solution& solution, double unit) {
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
-    patches.push_back(std::move(patch));
+    return patch;
   }
-}
+
+private:
+  const Solution& solution;
+  const double unit;
+  const RingSpace& space;
+  const FE_Q<2>& element;
+  /// From the order of points in a patch, r running fastest, to the element's own order.
+  const std::vector<unsigned int> numbering;
+  FEValues<2> values;
+  const std::vector<float> pressure;
+  std::vector<types::global_dof_index> dofs;
+  std::vector<std::string> names = {"displacement", "pressure"};
+};
 
 } // namespace
 
 void write_solution_vtu(std::ostream& out, const Solution& solution, double unit) {
-  DeformedCylinder cylinder(solution, unit);
+  DeformedCells cells(solution, unit);
   DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;
   flags.print_date_and_time = false; // a run repeated gives the same file
   flags.compression_level = decltype(flags.compression_level)::best_speed;
-  cylinder.set_flags(flags);
   try {
-    cylinder.write_vtu(out);
+    DataOutBase::write_vtu_header(out, flags);
+    std::vector<Patch> patches;
+    const auto write_piece = [&] {
+      DataOutBase::write_vtu_main(patches, cells.dataset_names(), {}, flags, out);
+      patches.clear();
+    };
+    for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {
+      if (patches.size() == cells_in_piece)
+        write_piece();
+      patches.push_back(cells.patch(cell, patches.size()));
+    }
+    write_piece();
+    DataOutBase::write_vtu_footer(out);
   } catch (const StandardExceptions::ExcIO&) {
     // The stream remembers its failure for its owner, who knows the file's name.
     if (!out.fail())

@@ -136,6 +136,7 @@ void SparseCholesky::factorise() {
   const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod_free_work(&cholmod->common);
+  release_freed_memory();
   cholmod->check("factorisation");
 }
 

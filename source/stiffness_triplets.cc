@@ -11,23 +11,19 @@ namespace rollwave {
 using namespace dealii;
 
 std::vector<int> number_unknowns(const RingSpace& space, const Scene& scene) {
-  std::vector<int> unknown_of_dof(space.dof_handler().n_dofs(), 0);
-  for (const auto& line : space.constraints().get_lines())
-    unknown_of_dof[line.index] = -1;
-
   std::vector<std::pair<double, types::global_dof_index>> contact;
   for (const SurfaceNode& node : space.contact_nodes())
     contact.emplace_back(-scene.road(node.angle), node.dof);
   std::stable_sort(contact.begin(), contact.end(),
                    [](const auto& left, const auto& right) { return left.first < right.first; });
-  const int first_contact_unknown = space.n_unknowns() - contact.size();
-  for (unsigned int k = 0; k < contact.size(); ++k)
-    unknown_of_dof[contact[k].second] = first_contact_unknown + k;
-
-  int unknown = 0;
-  for (int& entry : unknown_of_dof)
-    if (entry >= 0 && entry < first_contact_unknown)
-      entry = unknown++;
+  std::vector<int> unknown_of_dof(space.dof_handler().n_dofs(), -1);
+  int unknown = space.n_unknowns() - contact.size();
+  for (const auto& node : contact)
+    unknown_of_dof[node.second] = unknown++;
+  unknown = 0;
+  for (const auto dof : space.elimination_order())
+    if (unknown_of_dof[dof] < 0 && !space.constraints().is_constrained(dof))
+      unknown_of_dof[dof] = unknown++;
   return unknown_of_dof;
 }
 
