@@ -122,7 +122,7 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
     const Parameters parameters = parameters_of(
         {assignment("Cylinder/Inner radius", inner), assignment("Road/Distance", distance),
          inner > 0.5 ? "Mesh/Radial cells=2" : "Mesh/Radial cells=12", "Mesh/Angular cells=120",
-         "Mesh/Wanted relative error=0.03", "Mesh/Most unknowns=60000"});
+         "Mesh/Wanted relative error=0.03", "Mesh/Most unknowns=100000"});
     const Scene scene = make_scene(parameters);
     const Result result = simulate(scene, parameters).result;
     const auto exact = find_exact_solution(scene, parameters);
