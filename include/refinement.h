@@ -27,7 +27,7 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
- * and at corners as well.
+ * and at corners as well. Cells of level 29 are not cut.
  *
  * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter, and
  *         none is coarsened

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace rollwave {
@@ -16,79 +16,84 @@ using namespace dealii;
 
 namespace {
 
-/// The way of a node through the halvings, two bits for each, the first halving in the highest: 0
-/// for the lower half, 1 for the upper one, 2 for the line between them, which comes after both.
-/// The order of the numbers is that of elimination. The codes of both directions together, which
-/// have their bits at different halvings, are the code of the node.
-using Code = std::uint64_t;
+/// A node with its place in units of coarse cells, (radial, angular), exact in binary arithmetic.
+struct Node {
+  std::array<double, 2> place;
+  types::global_dof_index dof;
+};
 
-constexpr Code upper = 1, between = 2;
-constexpr int seam_shift = 62; ///< of the cut at the seam, before all halvings
+using Range = std::pair<std::vector<Node>::iterator, std::vector<Node>::iterator>;
 
-/// Where the bits of the halvings of each direction are, at first those of its first halving: the
-/// part is always halved across its longer side. Parts beyond the last bits are not told apart,
-/// which costs a little fill and nothing else.
-std::array<std::vector<int>, 2> schedule(std::array<double, 2> sides) {
-  std::array<std::vector<int>, 2> shifts;
-  for (int shift = seam_shift - 2; shift >= 0; shift -= 2) {
-    const unsigned int longer = sides[1] >= sides[0];
-    shifts[longer].push_back(shift);
-    sides[longer] /= 2;
+/// A part of the mesh: lines of coarse cells, or halves, quarters .. of one cell.
+struct Box {
+  std::array<double, 2> low, high;
+  bool is_closed; ///< whether both angular ends are the seam
+
+  double middle(unsigned int direction) const {
+    const double sum = low[direction] + high[direction];
+    return high[direction] - low[direction] > 1 ? std::floor(sum / 2) : sum / 2;
   }
-  return shifts;
+};
+
+/// A line that halves a box, and the seam with it when an angular line alone would not.
+struct Cut {
+  Cut(const Box& box, unsigned int direction)
+      : direction(direction), middle(box.middle(direction)),
+        seam(direction == 1 && box.is_closed ? box.low[1] : middle),
+        seam_again(direction == 1 && box.is_closed ? box.high[1] : middle) {}
+
+  bool holds(const Node& node) const {
+    const double place = node.place[direction];
+    return place == middle || place == seam || place == seam_again;
+  }
+  bool has_below(const Node& node) const { return node.place[direction] < middle; }
+
+  unsigned int direction;
+  double middle, seam, seam_again;
+};
+
+/// How well a cut divides nodes: the squared number of those on it, the entries that it adds to the
+/// factor, for each pair of nodes that it parts. Nothing when it only takes away an empty half;
+/// infinite when it would go on to part no nodes.
+double cost(const Cut& cut, const Range& nodes) {
+  double below = 0, on = 0, lowest = nodes.first->place[cut.direction], highest = lowest;
+  for (auto node = nodes.first; node != nodes.second; ++node) {
+    const double place = node->place[cut.direction];
+    lowest = std::min(lowest, place);
+    highest = std::max(highest, place);
+    const bool is_on = cut.holds(*node);
+    on += is_on;
+    below += !is_on && cut.has_below(*node);
+  }
+  const double above = nodes.second - nodes.first - below - on;
+  if (below > 0 && above > 0 && on > 0)
+    return on * on / (below * above);
+  const bool takes_nothing = on == 0 && (below == 0 || above == 0);
+  return takes_nothing && lowest < highest ? 0 : std::numeric_limits<double>::infinity();
 }
 
-/// An interval of coarse cells that is halved again and again, first along the lines between coarse
-/// cells, then in their middles.
-class Bisection {
-public:
-  /// @param is_closed whether both ends are the seam
-  Bisection(unsigned int n_cells, const std::vector<int>& shifts, bool is_closed)
-      : shifts(shifts), of_line(n_cells + 1, 0), of_cell(n_cells) {
-    halve(0, n_cells, 0, 0);
-    for (const int shift : shifts)
-      of_line.back() |= upper << shift; // the upper end is always in the upper half
-    if (is_closed)
-      of_line.front() = of_line.back() = between << seam_shift;
-  }
+/// Puts nodes in the order of elimination.
+void dissect(Range nodes, const Box& box) {
+  if (nodes.second - nodes.first < 2)
+    return;
+  const std::array<Cut, 2> cuts = {{Cut(box, 0), Cut(box, 1)}};
+  const Cut& cut = cuts[!(cost(cuts[0], nodes) < cost(cuts[1], nodes))];
+  const unsigned int direction = cut.direction;
 
-  /// The code of a line, whose @p place is in units of coarse cells.
-  Code code(double place) const {
-    const auto cell = static_cast<unsigned int>(place);
-    double rest = place - cell;
-    if (rest == 0)
-      return of_line[cell];
-    Code code = of_cell[cell].first;
-    for (unsigned int k = of_cell[cell].second; k < shifts.size(); ++k) {
-      rest *= 2;
-      if (rest == 1)
-        return code | between << shifts[k];
-      if (rest > 1) {
-        code |= upper << shifts[k];
-        rest -= 1;
-      }
-    }
-    return code;
-  }
-
-private:
-  /// @param k how many halvings have led to the cells from @p begin to @p end, with their @p code
-  void halve(unsigned int begin, unsigned int end, unsigned int k, Code code) {
-    if (end - begin == 1 || k == shifts.size()) {
-      std::fill(of_cell.begin() + begin, of_cell.begin() + end, std::pair(code, k));
-      std::fill(of_line.begin() + begin + 1, of_line.begin() + end, code);
-      return;
-    }
-    const unsigned int middle = (begin + end) / 2;
-    of_line[middle] = code | between << shifts[k];
-    halve(begin, middle, k + 1, code);
-    halve(middle, end, k + 1, code | upper << shifts[k]);
-  }
-
-  const std::vector<int>& shifts;
-  std::vector<Code> of_line;
-  std::vector<std::pair<Code, unsigned int>> of_cell; ///< and how many halvings lead to the cell
-};
+  const auto line =
+      std::partition(nodes.first, nodes.second, [&](const Node& node) { return !cut.holds(node); });
+  const auto upper =
+      std::partition(nodes.first, line, [&](const Node& node) { return cut.has_below(node); });
+  std::sort(line, nodes.second,
+            [](const Node& one, const Node& other) { return one.place < other.place; });
+  Box half = box;
+  half.is_closed = box.is_closed && direction == 0;
+  half.high[direction] = cut.middle;
+  dissect({nodes.first, upper}, half);
+  half.low[direction] = cut.middle;
+  half.high[direction] = box.high[direction];
+  dissect({upper, line}, half);
+}
 
 /// The place of a cell in units of coarse cells, (radial, angular), exact in binary arithmetic.
 struct Place {
@@ -148,31 +153,26 @@ std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
   const std::vector<double> places = node_places(element.degree);
 
   const unsigned int n_radial = count_radial_cells(triangulation);
-  const unsigned int n_angular = triangulation.n_cells(0) / n_radial;
-  const auto shifts = schedule({{double(n_radial), double(n_angular)}});
-  const std::array<Bisection, 2> bisections = {
-      {Bisection(n_radial, shifts[0], false), Bisection(n_angular, shifts[1], true)}};
-
-  std::vector<std::pair<Code, types::global_dof_index>> codes(handler.n_dofs());
+  std::vector<Node> nodes(handler.n_dofs());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  std::array<std::vector<Code>, 2> lines = {{std::vector<Code>(n), std::vector<Code>(n)}};
   for (const auto& cell : handler.active_cell_iterators()) {
     const Place place = place_of(cell, n_radial);
-    for (const unsigned int direction : {0, 1})
-      for (unsigned int k = 0; k < n; ++k)
-        lines[direction][k] =
-            bisections[direction].code(place.low[direction] + place.size * places[k]);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
       const auto dof = dofs[numbering[i]];
-      codes[dof] = {lines[0][i % n] | lines[1][i / n], dof};
+      nodes[dof] = {
+          {{place.low[0] + place.size * places[i % n], place.low[1] + place.size * places[i / n]}},
+          dof};
     }
   }
-  std::sort(codes.begin(), codes.end());
+  const double n_angular = triangulation.n_cells(0) / n_radial;
+  const Box ring = {{{0, 0}}, {{double(n_radial), n_angular}}, true};
+  dissect({nodes.begin(), nodes.end()}, ring);
+
   std::vector<types::global_dof_index> order;
-  order.reserve(codes.size());
-  for (const auto& [code, dof] : codes)
-    order.push_back(dof);
+  order.reserve(nodes.size());
+  for (const Node& node : nodes)
+    order.push_back(node.dof);
   return order;
 }
 

@@ -1,6 +1,7 @@
 #include "refinement.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/distributed/p4est_wrappers.h>
 #include <deal.II/grid/grid_refinement.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/numerics/error_estimator.h>
@@ -27,6 +28,17 @@ namespace {
 
 /// A cell that is longer than high by this factor counts as flat.
 constexpr double flat_cell = 8;
+
+/// The finest level: beyond it CellId and p4est have no room.
+constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
+
+/// Settles what is flagged, with the neighbours that must be cut too.
+void prepare(Triangulation<2>& triangulation) {
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->level() == finest_level)
+      cell->clear_refine_flag();
+  triangulation.prepare_coarsening_and_refinement();
+}
 
 /// The number of active cells after the refinement that is flagged.
 unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
@@ -94,7 +106,7 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>
       return last_marked;
     last_marked = marked[static_cast<std::size_t>(n_marked) - 1];
     flag(triangulation, squares, last_marked);
-    triangulation.prepare_coarsening_and_refinement();
+    prepare(triangulation);
     if (n_cells_to_come(triangulation) <= most_cells)
       return last_marked;
   }
@@ -148,7 +160,7 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
   if (coarsens) {
     clear_flags(triangulation);
     flag_too_fine(triangulation, squares, last_marked / 2, left_to_part);
-    triangulation.prepare_coarsening_and_refinement();
+    prepare(triangulation);
     const unsigned int n_before = triangulation.n_active_cells();
     execute(triangulation, squares, left_to_part);
     is_changed = triangulation.n_active_cells() != n_before;
@@ -157,7 +169,7 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
     triangulation.set_all_refine_flags();
   else if (last_marked > 0)
     flag(triangulation, squares, last_marked);
-  triangulation.prepare_coarsening_and_refinement();
+  prepare(triangulation);
   if (n_cells_to_come(triangulation) > most_cells) {
     if (marking == Marking::all) {
       clear_flags(triangulation);
@@ -172,7 +184,7 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
     for (const auto& cell : triangulation.active_cell_iterators())
       if (cell->user_index() == 0 && squares(cell->active_cell_index()) > last_marked)
         cell->set_refine_flag();
-    triangulation.prepare_coarsening_and_refinement();
+    prepare(triangulation);
     const unsigned int n_next = n_cells_to_come(triangulation);
     if (n_next == triangulation.n_active_cells() || n_next > most_cells)
       break;

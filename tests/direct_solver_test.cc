@@ -3,6 +3,7 @@
 
 #include "assembly.h"
 #include "errors.h"
+#include "stiffness_triplets.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -39,6 +40,38 @@ struct RandomMatrix {
   LowerTriplets triplets;
   FullMatrix<double> full;
 };
+
+double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
+  SparseCholesky cholesky(space.n_unknowns());
+  cholesky.set_matrix(assemble_triplets(space, scene, number_unknowns(space, scene)));
+  return cholesky.n_factor_entries() / space.n_unknowns();
+}
+
+// Between layers of n nodes a node has at most its own and those on both sides in the factor, 3 n;
+// merged supernodes at most double that.
+TEST(SparseCholesky, RingOfManyLayersHasTheFactorOfABand) {
+  const Parameters parameters = parameters_of({"Mesh/Radial cells=2000", "Mesh/Angular cells=8"});
+  const Scene scene = make_scene(parameters);
+  EXPECT_LE(factor_entries_per_unknown(Discretisation(scene, parameters).space, scene), 6 * 8);
+}
+
+// Around a point each level of cells is the same, so that the factor grows with their number.
+TEST(SparseCholesky, DeepMeshHasTheFactorOfAShallowOne) {
+  const Parameters parameters = parameters_of({"Mesh/Radial cells=4", "Mesh/Angular cells=16"});
+  const Scene scene = make_scene(parameters);
+  Discretisation ring(scene, parameters);
+  std::vector<double> entries;
+  for (int level = 1; level < 29; ++level) {
+    for (const auto& cell : ring.triangulation->active_cell_iterators())
+      if (cell->vertex(3).distance({1, 3 * dealii::numbers::PI / 2}) < 1.5 * cell->diameter())
+        cell->set_refine_flag();
+    ring.triangulation->execute_coarsening_and_refinement();
+    if (level % 14 == 0)
+      entries.push_back(
+          factor_entries_per_unknown(RingSpace(*ring.triangulation, scene, 1), scene));
+  }
+  EXPECT_LE(entries.back(), 1.3 * entries.front());
+}
 
 TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
   const int n = 60;

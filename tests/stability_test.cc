@@ -1,8 +1,12 @@
 // Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
 #include "manufactured_scene.h"
+#include "refinement.h"
+#include "ring_mesh.h"
 #include "test_scenes.h"
 #include "true_errors.h"
 #include "verification.h"
+
+#include <deal.II/grid/tria.h>
 
 #include <gtest/gtest.h>
 
@@ -132,6 +136,21 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
     EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
     EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
   }
+}
+
+// CellId and p4est have no room for more; the cells around are cut no further either.
+TEST(Stability, RefinementEndsAtTheFinestLevel) {
+  const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
+  const auto mesh = make_ring_mesh(make_scene(parameters), parameters);
+  bool is_cut = true;
+  for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
+    std::vector<double> indicators;
+    for (const auto& cell : mesh->active_cell_iterators())
+      indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
+    is_cut = refine_mesh(*mesh, indicators, Marking::bulk, 0.5, 1, 1e6, /*coarsens=*/false);
+  }
+  EXPECT_FALSE(is_cut);
+  EXPECT_EQ(mesh->n_levels(), 30);
 }
 
 } // namespace
