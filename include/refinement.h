@@ -27,7 +27,8 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
- * and at corners as well. Cells of level 29 are not cut.
+ * and at corners as well. Cells of level 29 are not cut:
+ * CellId and p4est have no room beyond.
  *
  * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter, and
  *         none is coarsened
@@ -35,6 +36,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const std::vector<double>& indicators,
                  Marking marking, double fraction, unsigned int degree, double most_cells,
                  bool coarsens);
+
+/// Whether there are cells that refine_mesh() cannot cut.
+bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);
 
 } // namespace rollwave
 

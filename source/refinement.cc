@@ -29,7 +29,6 @@ namespace {
 /// A cell that is longer than high by this factor counts as flat.
 constexpr double flat_cell = 8;
 
-/// The finest level: beyond it CellId and p4est have no room.
 constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
 
 /// Settles what is flagged, with the neighbours that must be cut too.
@@ -133,6 +132,10 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
 }
 
 } // namespace
+
+bool is_at_finest_level(const Triangulation<2>& triangulation) {
+  return triangulation.n_levels() > finest_level;
+}
 
 bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
                  Marking marking, double fraction, unsigned int degree, double most_cells,

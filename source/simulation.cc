@@ -72,7 +72,8 @@ bool refine(const std::vector<double>& indicators, const Parameters& parameters,
 }
 
 /// What of the wanted error is missing, and why.
-std::string shortfall_text(const Parameters& parameters, const Result& result) {
+std::string shortfall_text(const Parameters& parameters, const Solution& solution) {
+  const Result& result = solution.result;
   std::ostringstream text;
   if (!result.shortfall.empty())
     text << result.shortfall;
@@ -82,7 +83,10 @@ std::string shortfall_text(const Parameters& parameters, const Result& result) {
   if (const double wanted = parameters.mesh.wanted_relative_error; wanted > 0)
     text << (result.is_interrupted ? "; " : "") << "the certified relative error is "
          << result.certified->relative << ", wanted " << wanted;
-  if (!result.is_interrupted)
+  if (is_at_finest_level(*solution.triangulation))
+    text << "; the smallest cells cannot be cut again: raise Mesh/Radial cells and Mesh/Angular "
+            "cells, or want less";
+  else if (!result.is_interrupted)
     text << "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less";
   return text.str();
 }
@@ -157,7 +161,7 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
     if (certifies && !result.certified)
       certify_solution(scene, on_mesh, solution);
     if (result.is_interrupted || (wants_error && !is_reached))
-      result.shortfall = shortfall_text(parameters, result);
+      result.shortfall = shortfall_text(parameters, solution);
     else if (result.residuals.largest() > wanted_residual &&
              parameters.contact.method == ContactMethod::active_set)
       result.shortfall = residual_text(result.residuals);

@@ -151,6 +151,7 @@ TEST(Stability, RefinementEndsAtTheFinestLevel) {
   }
   EXPECT_FALSE(is_cut);
   EXPECT_EQ(mesh->n_levels(), 30);
+  EXPECT_TRUE(is_at_finest_level(*mesh));
 }
 
 } // namespace
