@@ -17,7 +17,7 @@ using AddCellMatrix = std::function<void(const std::vector<dealii::types::global
                                          const dealii::FullMatrix<double>& cell_matrix)>;
 
 /**
- * Calls @p add for every cell with
+ * Calls @p add for every cell of this process with
  *
  *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,   alpha = 1/r^2 -
  * omega^2

@@ -4,13 +4,12 @@
 #include "feasible_trace.h"
 #include "result.h"
 
-#include <memory>
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
-class DualPotential;
+struct MeshSystem;
 
 /**
  * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
@@ -46,12 +45,12 @@ struct Certificate {
   FeasibleTrace trace;             ///< v on the surface
 };
 
-/// Certifies the solution @p contact with the displacement @p field. @p dual is that of the same
-/// space, made here when it is empty.
+/// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
+/// space, whose dual potential is made here when it lacks.
 /// @throws NotSolved when memory is short.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    std::unique_ptr<DualPotential>& dual, Work& work);
+                    const ContactSolution& contact, const FieldVector& field, MeshSystem& system,
+                    Work& work);
 
 } // namespace rollwave
 

@@ -15,9 +15,10 @@ namespace rollwave {
  *     u_i <= phi_i,   N_i >= 0,   N_i (phi_i - u_i) = 0,   pressure lambda_i = N_i / weight_i.
  */
 struct ContactProblem {
-  dealii::Vector<double> road;   ///< phi_i, a length
-  dealii::Vector<double> weight; ///< the nodes' areas, see SurfaceNode
-  double unit = 1;               ///< of length, Scene::unit
+  dealii::Vector<double> road;           ///< phi_i, a length
+  dealii::Vector<double> weight;         ///< the nodes' areas, see SurfaceNode
+  double unit = 1;                       ///< of length, Scene::unit
+  MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
 
   unsigned int size() const { return road.size(); }
 };

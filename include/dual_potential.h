@@ -4,7 +4,7 @@
 #include "force_columns.h"
 #include "radial_shapes.h"
 #include "ring_space.h"
-#include "sparse_cholesky.h"
+#include "symmetric_solver.h"
 
 #include <memory>
 #include <optional>
@@ -36,22 +36,24 @@ struct EdgePressure {
  *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (G - psi_z)^2 / r dr dz.
  *
  * psi is prescribed on r = b up to a constant, free on the hub, and grows by b int lambda dz in a
- * period. The factorisation is kept while the speed stays the same.
+ * period. The matrix, with what is prepared to solve with it, is kept while the speed stays the
+ * same.
  */
 class DualPotential {
 public:
-  explicit DualPotential(const RingSpace& space);
+  /// @p kind is that of make_symmetric_solver().
+  DualPotential(const RingSpace& space, SolverKind kind);
 
   /// The nodal values of psi, both sides of the seam having their own.
   /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
   /// @param columns nullptr when there is no force
-  /// @throws NotSolved when memory is short
+  /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
                     const std::vector<EdgePressure>& pressures, ForceColumns* columns, Work& work);
 
 private:
-  void factorise(const Scene& scene, RadialShapesOfMesh& shapes,
-                 const dealii::AffineConstraints<double>& constraints, Work& work);
+  void assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
+                       const dealii::AffineConstraints<double>& constraints, Work& work);
 
   /// The right-hand side of the potential's equation, for its values prescribed in @p lift.
   FieldVector assemble_load(RadialShapesOfMesh& shapes,
@@ -62,9 +64,8 @@ private:
   const dealii::FE_Q<2>& element;
   const std::vector<unsigned int> numbering; ///< of a cell, the radial index running fastest
   const ShapeProducts reference;
-  std::vector<int> unknown_of_dof;        ///< -1 where a constraint holds
-  std::optional<double> angular_velocity; ///< of the scene that is factorised
-  std::unique_ptr<SparseCholesky> cholesky;
+  std::optional<double> angular_velocity; ///< of the scene that the matrix belongs to
+  std::unique_ptr<SymmetricSolver> solver;
 };
 
 } // namespace rollwave

@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_INTERRUPT_H
 #define ROLLWAVE_INTERRUPT_H
 
+#include <mpi.h>
+
 namespace rollwave {
 
 /// Notes SIGINT (Ctrl-C) and SIGTERM from here on: the first is told on the standard error and
@@ -8,9 +10,10 @@ namespace rollwave {
 /// scripts do in the background, stays ignored.
 void heed_interrupts();
 
-/// Whether the program has been asked to end. Who repeats steps looks between them, and ends with
-/// the best there is: no more steps of Uzawa, no finer mesh, no further run of a study.
-bool is_interrupted();
+/// Whether any of the processes, all of which must ask, has been told to end. Who repeats steps
+/// looks between them, and ends with the best there is: no more steps of Uzawa, no finer mesh, no
+/// further run of a study.
+bool is_interrupted(MPI_Comm communicator);
 
 } // namespace rollwave
 

@@ -14,6 +14,7 @@ namespace rollwave {
 /// scene at the cost of what differs; a part that is dropped is made again.
 struct MeshSystem {
   SolverChoice stiffness;
+  SolverKind kind = SolverKind::direct; ///< of the stiffness, and so of the potential
   std::unique_ptr<DualPotential> potential;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::string force;               ///< the text of the force that the load belongs to

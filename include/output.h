@@ -11,9 +11,9 @@
 
 namespace rollwave {
 
-/// Makes the directory of the files. @throws BadInput when it cannot be made or written into,
-/// NotWritten when there is no space for it.
-std::filesystem::path prepare_directory(const Parameters& parameters);
+/// Makes the directory of the files, on one process for all. @throws BadInput when it cannot be
+/// made or written into, NotWritten when there is no space for it.
+std::filesystem::path prepare_directory(const Parameters& parameters, MPI_Comm communicator);
 
 /// What has been written, and what could not be drawn.
 struct WrittenFiles {
@@ -21,8 +21,9 @@ struct WrittenFiles {
   std::vector<std::string> remarks;
 };
 
-/// Writes the files that @p parameters ask for. The time is added to the work of @p solution, whose
-/// summary is written last. @throws NotWritten.
+/// Writes the files that @p parameters ask for: on several processes each its part of the field,
+/// one of them the others. The time is added to the work of @p solution, whose summary is written
+/// last. @throws NotWritten.
 WrittenFiles write_results(const std::filesystem::path& directory, const Scene& scene,
                            const Parameters& parameters, Solution& solution);
 

@@ -13,7 +13,8 @@ namespace rollwave {
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
 
 /**
- * Refines the cells of @p triangulation by the indicators eta_K of its active cells. Bulk marking
+ * Refines the cells of @p triangulation by the indicators eta_K of its active cells, and shares the
+ * cells among the processes anew. Bulk marking
  * is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum
  * eta_K^2 >= @p fraction of the whole.
  *

@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_RING_MESH_H
 #define ROLLWAVE_RING_MESH_H
 
+#include <mpi.h>
+
 #include <memory>
 
 namespace dealii {
@@ -27,10 +29,12 @@ enum BoundaryId : unsigned int {
  * ends are vertices, and the cells within and outside of it differ in length as they must: a zone
  * that ended inside of cells would cut the contact short at another place on every mesh.
  *
+ * On several processes the mesh is p4est's, each of them having a part of it.
+ *
  * @throws BadInput when it would have more than `Mesh/Most unknowns` unknowns.
  */
-std::unique_ptr<dealii::Triangulation<2, 2>> make_ring_mesh(const Scene& scene,
-                                                            const Parameters& parameters);
+std::unique_ptr<dealii::Triangulation<2, 2>>
+make_ring_mesh(const Scene& scene, const Parameters& parameters, MPI_Comm communicator);
 
 } // namespace rollwave
 

@@ -6,7 +6,11 @@
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/vector.h>
 
+#include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace rollwave {
@@ -29,15 +33,15 @@ struct SurfaceNode {
 
 /// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.
 struct SurfaceFace {
-  dealii::DoFHandler<2>::active_cell_iterator cell;
   double begin; ///< angle, in the range of SurfaceNode::angle
   double end;
-  std::vector<dealii::types::global_dof_index> dofs;
+  std::vector<unsigned int> nodes; ///< numbers among RingSpace::surface_nodes()
 };
 
 /**
  * Continuous elements of one degree in (r, z): degrees of freedom, constraints (hanging nodes,
- * period, u = 0 on the hub) and the nodes on the surface.
+ * period, u = 0 on the hub) and the nodes on the surface. On several processes each has the degrees
+ * of freedom and constraints of its cells and of those next to them, and the surface in full.
  */
 class RingSpace {
 public:
@@ -53,8 +57,11 @@ public:
   /// b, a length.
   double outer_radius() const { return radius; }
 
+  /// The processes that share the space.
+  MPI_Comm communicator() const { return handler.get_communicator(); }
+
   /// Unknowns: degrees of freedom without those that constraints tie to others.
-  unsigned int n_unknowns() const;
+  unsigned int n_unknowns() const { return unknowns; }
 
   /// All nodes on r = b by increasing angle.
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
@@ -62,27 +69,53 @@ public:
   /// All edges on r = b by increasing angle of the mesh, beginning at the seam.
   const std::vector<SurfaceFace>& surface_faces() const { return faces; }
 
+  /// The number among surface_faces() of the edge of a cell on r = b, if it has one.
+  std::optional<unsigned int>
+  surface_face(const dealii::Triangulation<2>::active_cell_iterator& cell) const;
+
   /// The nodes in [z0, z1], a stretch of surface_nodes().
   const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
 
+  /// The number among contact_nodes() of a node of surface_nodes(), if it is one.
+  std::optional<unsigned int> contact_number(unsigned int surface_node) const {
+    if (surface_node < first_contact || surface_node >= first_contact + contact.size())
+      return {};
+    return surface_node - first_contact;
+  }
+
+  /// The values of a field at the surface nodes, and at the contact nodes, on every process.
+  std::vector<double> surface_values(const FieldVector& field) const;
+  dealii::Vector<double> contact_values(const FieldVector& field) const;
+
   /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
-  /// space sparse, whatever their constraints: dissect().
+  /// space sparse, whatever their constraints: dissect(). For one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const { return order; }
 
+  /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
+  /// next to them, and what constraints tie these to.
+  const dealii::IndexSet& relevant_dofs() const { return relevant; }
+
   /// A zero field.
-  FieldVector make_field() const { return FieldVector(handler.n_dofs()); }
+  FieldVector make_field() const { return FieldVector(partitioner); }
 
 private:
   void find_surface_nodes(const Scene& scene);
+  std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
+                                const FieldVector& field) const;
 
   double radius;
   dealii::FE_Q<2> element;
   dealii::MappingCartesian<2> cartesian;
   dealii::DoFHandler<2> handler;
   dealii::AffineConstraints<double> affine_constraints;
+  dealii::IndexSet relevant;
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
+  unsigned int unknowns;
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceNode> contact;
+  unsigned int first_contact = 0; ///< number of its first node in surface
   std::vector<SurfaceFace> faces;
+  std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   std::vector<dealii::types::global_dof_index> order;
 };
 

@@ -14,10 +14,14 @@ namespace rollwave {
  * When the user interrupts it, the mesh at hand is the last one: its solution, certified where that
  * was asked for, is the best there is, and Result::is_interrupted is set if anything is missing.
  *
+ * On several processes all call it with their @p communicator, and get the same Result; mesh and
+ * field are shared among them.
+ *
  * @throws BadInput for a mesh or force that cannot be used, NotSolved when a solver fails,
  *         Interrupted before the first mesh is solved.
  */
-Solution simulate(const Scene& scene, const Parameters& parameters);
+Solution simulate(const Scene& scene, const Parameters& parameters,
+                  MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
  * Solves one of several scenes after another, @p previous, whose mesh parameters, radii and zone
@@ -28,7 +32,8 @@ Solution simulate(const Scene& scene, const Parameters& parameters);
  *
  * @throws BadInput, NotSolved as simulate().
  */
-Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous);
+Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous,
+                       MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave
 

@@ -4,6 +4,8 @@
 #include "solution.h"
 
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace rollwave {
 
@@ -14,9 +16,14 @@ namespace rollwave {
  * of degree p become VTK's Lagrange cells with (p + 1)^2 nodes. A failure to write is left in the
  * state of the stream.
  *
- * @p unit is what the unit of the scene is to be written as.
+ * Of several processes each writes its own cells. @p unit is what the unit of the scene is to be
+ * written as.
  */
 void write_solution_vtu(std::ostream& out, const Solution& solution, double unit);
+
+/// Writes the file that holds together the @p pieces, the names of all processes' files.
+void write_solution_pvtu(std::ostream& out, const Solution& solution,
+                         const std::vector<std::string>& pieces);
 
 } // namespace rollwave
 

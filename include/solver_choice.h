@@ -17,11 +17,12 @@ struct Scene;
 struct SolverChoice {
   std::unique_ptr<StiffnessSolver> solver;
   std::string remark;
+  SolverKind kind = SolverKind::direct; ///< never automatic
 };
 
 /// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or,
-/// where memory is too short for its factor, the iterative one. @p load and @p work are as for
-/// StiffnessSolver::turn_to().
+/// where memory is too short for its factor and on several processes, the iterative one. @p load
+/// and @p work are as for StiffnessSolver::turn_to().
 /// @throws NotSolved as the kinds do.
 SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                                    const std::optional<FieldVector>& load, Work& work);

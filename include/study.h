@@ -3,6 +3,8 @@
 
 #include "study_run.h"
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -24,6 +26,8 @@ struct Study {
  * same study, that is beside a parameters.prm with the same text, only the missing runs are made.
  * Where a run continues the mesh of the run before, that takes all runs since the mesh was begun.
  *
+ * On several processes all of them make each run together, and the first of them writes.
+ *
  * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
  * and no further run is begun.
  *
@@ -32,7 +36,7 @@ struct Study {
  *         before there is a row.
  */
 Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
-                std::ostream& progress);
+                std::ostream& progress, MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave
 

@@ -38,7 +38,7 @@ std::string study_csv(const std::vector<StudyRun>& runs);
 
 /// The runs that study_csv() wrote, without their settings and published steps; none when the file
 /// is not there or has other columns.
-std::vector<StudyRun> read_study_csv(const std::filesystem::path& file);
+std::vector<StudyRun> read_study_csv(const std::string& text);
 
 } // namespace rollwave
 

@@ -64,6 +64,8 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell()), ordered(dofs.size());
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const auto key = std::pair(low[0], high[0]);
     auto radial = known.find(key);
@@ -87,6 +89,8 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   FieldVector load = space.make_field();
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     values.reinit(cell);
     cell_vector = 0;
     for (const unsigned int q : values.quadrature_point_indices()) {
@@ -102,6 +106,7 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
     cell->get_dof_indices(dofs);
     space.constraints().distribute_local_to_global(cell_vector, dofs, load);
   }
+  load.compress(VectorOperation::add);
   return load;
 }
 

@@ -1,7 +1,7 @@
 #include "certificate.h"
 
 #include "contact_free.h"
-#include "dual_potential.h"
+#include "mesh_system.h"
 #include "scene.h"
 #include "work.h"
 
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 
 namespace rollwave {
@@ -26,10 +25,6 @@ std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& sc
                                          const ContactSolution& contact) {
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGaussLobatto<1> lobatto(degree + 1);
-  std::map<types::global_dof_index, double> nodal;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    nodal[space.contact_nodes()[i].dof] = std::max(0., contact.state.force(i) / problem.weight(i));
-
   std::vector<EdgePressure> pressures;
   for (const SurfaceFace& face : space.surface_faces()) {
     // A zone that ends within round-off of a vertex ends there.
@@ -39,8 +34,8 @@ std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& sc
       continue;
     }
     const auto pressure = [&](unsigned int k) {
-      const auto found = nodal.find(face.dofs[k]);
-      return found == nodal.end() ? 0. : found->second;
+      const auto node = space.contact_number(face.nodes[k]);
+      return node ? std::max(0., contact.state.force(*node) / problem.weight(*node)) : 0.;
     };
     double mean = 0;
     for (unsigned int k = 0; k <= degree; ++k)
@@ -83,6 +78,8 @@ double unresolved_force_squared(const RingSpace& space, const Scene& scene,
   FullMatrix<double> nodal(n), rows(fine.size(), n), values(fine.size());
   double squared = 0;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     const Point<2> low = cell->vertex(0);
     const Tensor<1, 2> size = cell->vertex(3) - low;
     const auto force = [&](double s, double t) {
@@ -101,7 +98,7 @@ double unresolved_force_squared(const RingSpace& space, const Scene& scene,
                    error * error;
       }
   }
-  return squared;
+  return Utilities::MPI::sum(squared, space.communicator());
 }
 
 /// The integrals over a line z = const of a cell, each over dr.
@@ -118,6 +115,14 @@ struct LineIntegrals {
     work_of_force += weight * other.work_of_force;
     l2_squared += weight * other.l2_squared;
     force_error += weight * other.force_error;
+  }
+
+  /// The sums over all processes.
+  LineIntegrals over(MPI_Comm communicator) const {
+    std::vector<double> sums = {bound_squared, norm_squared, work_of_force, l2_squared,
+                                force_error};
+    Utilities::MPI::sum(sums, communicator, sums);
+    return {sums[0], sums[1], sums[2], sums[3], sums[4]};
   }
 };
 
@@ -136,8 +141,8 @@ public:
     radial = &shapes.on(low[0], high[0]);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
-      u[i] = displacement.local_element(dofs[numbering[i]]);
-      psi[i] = potential.local_element(dofs[numbering[i]]);
+      u[i] = displacement(dofs[numbering[i]]);
+      psi[i] = potential(dofs[numbering[i]]);
     }
   }
 
@@ -219,8 +224,8 @@ private:
 } // namespace
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    std::unique_ptr<DualPotential>& dual, Work& work) {
+                    const ContactSolution& contact, const FieldVector& field, MeshSystem& system,
+                    Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGauss<1> gauss(degree + 2);
@@ -232,16 +237,13 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = edge_pressures(space, scene, problem, contact);
+  auto& dual = system.potential;
   if (!dual)
-    dual = std::make_unique<DualPotential>(space);
+    dual = std::make_unique<DualPotential>(space, system.kind);
   const FieldVector potential =
       dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
-  std::vector<int> face_of_cell(triangulation.n_active_cells(), -1);
-  for (unsigned int i = 0; i < space.surface_faces().size(); ++i)
-    face_of_cell[space.surface_faces()[i].cell->active_cell_index()] = i;
-
   Integrator integrator(space, scene, displacement, potential, shapes,
                         columns ? &*columns : nullptr);
   // Off the surface everything but an uneven force is a polynomial of degree 2 p in z.
@@ -250,34 +252,34 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   for (const auto& point : inside.get_points())
     lines.emplace_back(integrator.angular_shapes(), point[0]);
   std::vector<double> cell_bounds(triangulation.n_active_cells());
-  double bound_squared = 0, norm_squared = 0, work_of_force = 0, l2_squared = 0, force_error = 0;
+  LineIntegrals total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     integrator.reinit(cell);
     const double length = integrator.angular_length();
     LineIntegrals sums;
     double contact_work = 0;
-    const int face = face_of_cell[cell->active_cell_index()];
-    if (face < 0)
+    const auto face = space.surface_face(cell);
+    if (!face)
       for (unsigned int p = 0; p < inside.size(); ++p)
         sums.add(integrator.on_line(lines[p], {0, 0, 0}), inside.weight(p) * length);
     else
-      for (const auto& piece : trace.pieces(face))
+      for (const auto& piece : trace.pieces(*face))
         for (unsigned int p = 0; p < gauss.size(); ++p) {
           const double piece_length = piece.t_end - piece.t_begin;
           const double t = piece.t_begin + piece_length * gauss.point(p)[0];
           const double weight = gauss.weight(p) * piece_length * length;
-          const auto correction = trace.correction(face, piece, t);
+          const auto correction = trace.correction(*face, piece, t);
           sums.add(integrator.on_line({integrator.angular_shapes(), t}, correction), weight);
-          contact_work += weight * scene.outer_radius * pressures[face](t) * correction.gap;
+          contact_work += weight * scene.outer_radius * pressures[*face](t) * correction.gap;
         }
-    const double cell_squared = sums.bound_squared + 2 * contact_work;
-    cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(0., cell_squared));
-    bound_squared += cell_squared;
-    norm_squared += sums.norm_squared;
-    work_of_force += sums.work_of_force;
-    l2_squared += sums.l2_squared;
-    force_error += sums.force_error;
+    sums.bound_squared += 2 * contact_work;
+    cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(0., sums.bound_squared));
+    total.add(sums, 1);
   }
+  const auto [bound_squared, norm_squared, work_of_force, l2_squared, force_error] =
+      total.over(space.communicator());
 
   const double friedrichs = std::sqrt(
       contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius));

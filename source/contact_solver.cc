@@ -12,6 +12,7 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
   problem.road.reinit(nodes.size());
   problem.weight.reinit(nodes.size());
   problem.unit = scene.unit;
+  problem.communicator = space.communicator();
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     problem.road(i) = scene.road(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;

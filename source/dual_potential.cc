@@ -1,11 +1,9 @@
 #include "dual_potential.h"
 
 #include "edge_constraints.h"
-#include "memory.h"
 #include "potential_shapes.h"
 #include "scene.h"
 #include "shape_products.h"
-#include "stiffness_triplets.h"
 #include "work.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -47,15 +45,19 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
                                                 const std::vector<EdgePressure>& pressures) {
   double growth = 0;
   const auto surface_values = surface_potential(space, pressures, growth);
-  AffineConstraints<double> constraints;
-  for (unsigned int i = 0; i < surface_values.size(); ++i) {
-    // Not SurfaceFace::dofs, in which both sides of the seam are one.
-    const auto dofs =
-        dofs_on_edge(space.surface_faces()[i].cell->face(1), space.dof_handler().get_fe().degree);
+  AffineConstraints<double> constraints(space.relevant_dofs());
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
+    const auto edge = space.surface_face(cell);
+    if (!edge)
+      continue;
+    // Not SurfaceFace::nodes, in which both sides of the seam are one.
+    const auto dofs = dofs_on_edge(cell->face(1), space.dof_handler().get_fe().degree);
     for (unsigned int k = 0; k < dofs.size(); ++k)
       if (!constraints.is_constrained(dofs[k])) {
         constraints.add_line(dofs[k]);
-        constraints.set_inhomogeneity(dofs[k], surface_values[i][k]);
+        constraints.set_inhomogeneity(dofs[k], surface_values[*edge][k]);
       }
   }
   // The mesh has many hanging nodes, but they lie at few places.
@@ -74,66 +76,48 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
 
 } // namespace
 
-DualPotential::DualPotential(const RingSpace& space)
+DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
     : space(space), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
       numbering(element.get_poly_space_numbering_inverse()),
-      reference(reference_products(element.degree)) {}
+      reference(reference_products(element.degree)), solver(make_symmetric_solver(kind, space)) {}
 
 FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
                                  const std::vector<EdgePressure>& pressures, ForceColumns* columns,
                                  Work& work) {
   const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
   if (angular_velocity != scene.angular_velocity)
-    factorise(scene, shapes, constraints, work);
+    assemble_matrix(scene, shapes, constraints, work);
   FieldVector lift = space.make_field();
   constraints.distribute(lift);
-  const FieldVector rhs = assemble_load(shapes, constraints, lift, columns);
-
-  std::vector<double> unknowns(cholesky->size());
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      unknowns[unknown_of_dof[dof]] = rhs(dof);
-  unknowns = cholesky->backward(cholesky->forward(std::move(unknowns)));
-  ++work.forward_substitutions;
-  ++work.back_substitutions;
-  FieldVector potential = space.make_field();
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      potential(dof) = unknowns[unknown_of_dof[dof]];
+  lift.update_ghost_values();
+  FieldVector potential = solver->solve(assemble_load(shapes, constraints, lift, columns), work);
   constraints.distribute(potential);
+  potential.update_ghost_values();
   return potential;
 }
 
-void DualPotential::factorise(const Scene& scene, RadialShapesOfMesh& shapes,
-                              const AffineConstraints<double>& constraints, Work& work) {
-  angular_velocity.reset(); // until the factor is there
-  if (!cholesky) {
-    unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
-    int n_unknowns = 0;
-    for (const auto dof : space.elimination_order())
-      if (!constraints.is_constrained(dof))
-        unknown_of_dof[dof] = n_unknowns++;
-    cholesky = std::make_unique<SparseCholesky>(n_unknowns);
-  }
-  {
-    TripletAssembler assembler(space, constraints, unknown_of_dof);
-    FullMatrix<double> cell_matrix(numbering.size());
-    std::vector<types::global_dof_index> dofs(numbering.size()), ordered(numbering.size());
-    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-      // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1], cell_matrix);
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        ordered[i] = dofs[numbering[i]];
-      assembler.add(ordered, cell_matrix);
-    }
-    if (cholesky->set_matrix(assembler.triplets))
-      ++work.orderings;
-  }
-  require_memory(sizeof(double) * cholesky->n_factor_entries(), "the factor of the dual problem");
-  cholesky->factorise();
-  ++work.factorisations;
+void DualPotential::assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
+                                    const AffineConstraints<double>& constraints, Work& work) {
+  angular_velocity.reset(); // until the solver is ready
+  solver->set_matrix(
+      constraints,
+      [&](const AddCellMatrix& add) {
+        FullMatrix<double> cell_matrix(numbering.size());
+        std::vector<types::global_dof_index> dofs(numbering.size()), ordered(numbering.size());
+        for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+          if (!cell->is_locally_owned())
+            continue;
+          // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
+          const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+          tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1],
+                        cell_matrix);
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            ordered[i] = dofs[numbering[i]];
+          add(ordered, cell_matrix);
+        }
+      },
+      work);
   angular_velocity = scene.angular_velocity;
 }
 
@@ -156,6 +140,8 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
   Vector<double> cell_vector(n * n), cell_lift(n * n);
   FieldVector rhs = space.make_field();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
       ordered[i] = dofs[numbering[i]];
@@ -185,6 +171,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       }
     constraints.distribute_local_to_global(cell_vector, ordered, rhs);
   }
+  rhs.compress(VectorOperation::add);
   return rhs;
 }
 

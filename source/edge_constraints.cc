@@ -36,9 +36,15 @@ public:
       : degree(degree), radial(radial), polynomials(lobatto_lagrange(degree)),
         nodes(QGaussLobatto<1>(degree + 1).get_points()), constraints(constraints) {}
 
-  void tie_hanging_nodes(const DoFHandler<2>::face_iterator& face, bool is_radial) {
+  /// Those on the face @p f of a cell that has finer neighbours there.
+  void tie_hanging_nodes(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) {
+    const auto face = cell->face(f);
+    const bool is_radial = f >= 2;
     const Edge coarse = edge_of(face, degree);
     for (const unsigned int half : {0U, 1U}) {
+      // Beyond the cells next to its own a process knows no degrees of freedom.
+      if (cell->neighbor_child_on_subface(f, half)->is_artificial())
+        continue;
       const Edge fine = edge_of(face->child(half), degree);
       if (is_radial)
         tie(fine, coarse, 0);
@@ -59,6 +65,11 @@ public:
                 [](const Edge& left, const Edge& right) { return left.begin < right.begin; });
     for (std::size_t i = 0, j = 0; i < first.size() && j < second.size();) {
       const Edge &one = first[i], &other = second[j];
+      // A process may know an edge and not the one across the seam, which it then has no use for.
+      if (one.end <= other.begin || other.end <= one.begin) {
+        one.end <= other.begin ? ++i : ++j;
+        continue;
+      }
       if (one.begin == other.begin)
         tie(other.dofs.front(), {one.dofs.front()}, {1.}, growth);
       if (one.end == other.end)
@@ -122,12 +133,12 @@ void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, do
   const auto& mesh = handler.get_triangulation();
   const bool has_one_level = mesh.n_active_cells() == mesh.n_cells(mesh.n_levels() - 1);
   for (const auto& cell : handler.active_cell_iterators()) {
-    if (has_one_level && !cell->at_boundary())
+    if (cell->is_artificial() || (has_one_level && !cell->at_boundary()))
       continue;
     for (const unsigned int f : cell->face_indices()) {
       const auto face = cell->face(f);
       if (face->has_children())
-        ties.tie_hanging_nodes(face, /*is_radial=*/f >= 2);
+        ties.tie_hanging_nodes(cell, f);
       else if (face->at_boundary() && face->boundary_id() == seam_begin_id)
         seam_begin.push_back(edge_of(face, degree));
       else if (face->at_boundary() && face->boundary_id() == seam_end_id)

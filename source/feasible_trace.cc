@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace rollwave {
 
@@ -17,10 +16,12 @@ using namespace dealii;
 FieldVector project_contact_nodes(const RingSpace& space, const ContactProblem& problem,
                                   const std::vector<bool>& active, FieldVector field) {
   for (unsigned int i = 0; i < problem.size(); ++i) {
-    double& u = field(space.contact_nodes()[i].dof);
-    u = active[i] ? problem.road(i) : std::min(u, problem.road(i));
+    const auto dof = space.contact_nodes()[i].dof;
+    if (field.in_local_range(dof))
+      field(dof) = active[i] ? problem.road(i) : std::min(field(dof), problem.road(i));
   }
   space.constraints().distribute(field);
+  field.update_ghost_values();
   return field;
 }
 
@@ -42,17 +43,14 @@ FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const F
                              const std::vector<bool>& active)
     : road(scene.road), road_slope(scene.road_slope),
       shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {
-  std::map<types::global_dof_index, bool> is_active;
-  for (unsigned int i = 0; i < active.size(); ++i)
-    is_active[space.contact_nodes()[i].dof] = active[i];
-
+  const std::vector<double> values = space.surface_values(field);
   for (const SurfaceFace& face : space.surface_faces()) {
     Edge edge{face.begin, face.end, {}, {}};
     unsigned int n_active = 0;
-    for (const auto dof : face.dofs) {
-      edge.nodal_values.push_back(field(dof));
-      const auto found = is_active.find(dof);
-      n_active += found != is_active.end() && found->second;
+    for (const unsigned int node : face.nodes) {
+      edge.nodal_values.push_back(values[node]);
+      const auto contact = space.contact_number(node);
+      n_active += contact && active[*contact];
     }
     // The part of the edge in the zone, in terms of t. A zone that ends within round-off of a
     // vertex ends there.
@@ -61,7 +59,7 @@ FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const F
     double zone_end = (scene.zone_end - edge.begin) / length;
     zone_begin = zone_begin < tolerance ? 0 : zone_begin;
     zone_end = zone_end > 1 - tolerance ? 1 : zone_end;
-    if (n_active == face.dofs.size() && zone_begin == 0 && zone_end == 1)
+    if (n_active == face.nodes.size() && zone_begin == 0 && zone_end == 1)
       edge.pieces = {{Piece::Kind::touching, 0, 1}};
     else if (zone_begin < zone_end)
       find_pieces(edge, zone_begin, zone_end);

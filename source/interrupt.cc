@@ -1,5 +1,7 @@
 #include "interrupt.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <csignal>
 #include <string_view>
 #include <unistd.h>
@@ -37,8 +39,8 @@ void heed_interrupts() {
   }
 }
 
-bool is_interrupted() {
-  return noted != 0;
+bool is_interrupted(MPI_Comm communicator) {
+  return dealii::Utilities::MPI::max(int(noted), communicator) != 0;
 }
 
 } // namespace rollwave

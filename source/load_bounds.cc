@@ -31,7 +31,7 @@ LoadBounds bound_load(const Scene& scene, const Parameters& parameters, const Ri
     moved.road = flat_road(b, distance);
     moved.road_slope = flat_road_slope(distance);
     const MeshSolution there = solve_on_mesh(moved, parameters, space, start, system, result.work);
-    return certify(space, moved, there.problem, there.contact, there.displacement, system.potential,
+    return certify(space, moved, there.problem, there.contact, there.displacement, system,
                    result.work);
   };
   const Certificate near = certify_at(c - step), far = certify_at(c + step);

@@ -4,6 +4,7 @@
 #include "output.h"
 #include "parameters.h"
 #include "process.h"
+#include "processes.h"
 #include "report.h"
 #include "simulation.h"
 #include "study.h"
@@ -21,57 +22,62 @@ using namespace rollwave;
 
 namespace {
 
-void run(const CommandLine& line) {
+void run(const CommandLine& line, std::ostream& out, const Processes& processes) {
+  const MPI_Comm communicator = processes.communicator();
   reserve_blas_memory();
   std::vector<Setting> settings = read_settings(line.file);
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   const Parameters parameters = read_parameters(settings);
   const Scene scene = make_scene(parameters);
-  const auto directory = prepare_directory(parameters);
+  const auto directory = prepare_directory(parameters, communicator);
 
-  report_scene(std::cout, scene, parameters);
+  report_scene(out, scene, parameters);
   if (!parameters.study.vary.empty() || !parameters.study.scenes.empty()) {
-    const Study study = run_study(parameters, directory, std::cout);
-    std::cout << '\n';
-    print_study(std::cout, study.runs);
-    report_files(std::cout, write_study(directory, parameters, study.runs));
+    const Study study = run_study(parameters, directory, out, communicator);
+    if (processes.is_first()) {
+      out << '\n';
+      print_study(out, study.runs);
+      report_files(out, write_study(directory, parameters, study.runs));
+    }
     if (!study.shortfall.empty())
       throw NotSolved(study.shortfall);
     return;
   }
-  Solution solution = simulate(scene, parameters);
-  report_result(std::cout, to_lengths(solution.result, scene.unit));
+  Solution solution = simulate(scene, parameters, communicator);
+  report_result(out, to_lengths(solution.result, scene.unit));
   if (line.verify) {
     if (const auto exact = find_exact_solution(scene, parameters)) {
       solution.result.errors =
           measure_true_errors(*solution.space, solution.displacement, solution.result,
                               solution.certificate, exact_reference(*exact));
-      report_verification(std::cout, scene, solution.result, *exact);
+      report_verification(out, scene, solution.result, *exact);
     } else
-      std::cout << "\nNo exact solution is known for this scene: its force is not constant, its "
-                   "zone cuts the contact short unevenly, or the contact is too long beside the "
-                   "thickness of the ring.\n";
+      out << "\nNo exact solution is known for this scene: its force is not constant, its "
+             "zone cuts the contact short unevenly, or the contact is too long beside the "
+             "thickness of the ring.\n";
   }
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
-  report_end(std::cout, solution.result.work, written);
+  report_end(out, solution.result.work, written);
   if (!solution.result.shortfall.empty())
     throw NotSolved(solution.result.shortfall);
 }
 
-void act(const std::vector<std::string>& arguments) {
+void act(const std::vector<std::string>& arguments, const Processes& processes) {
   const CommandLine line = read_command_line(arguments);
+  std::ostream silence(nullptr);
+  std::ostream& out = processes.is_first() ? std::cout : silence;
   switch (line.action) {
   case CommandLine::Action::help:
-    std::cout << usage();
+    out << usage();
     break;
   case CommandLine::Action::version:
-    std::cout << version_text() << '\n';
+    out << version_text() << '\n';
     break;
   case CommandLine::Action::parameters:
-    print_parameters(std::cout, line.settings);
+    print_parameters(out, line.settings);
     break;
   case CommandLine::Action::run:
-    run(line);
+    run(line, out, processes);
   }
 }
 
@@ -79,13 +85,15 @@ void act(const std::vector<std::string>& arguments) {
 
 int main(int argc, char* argv[]) {
   settle_process(argv);
-  const auto fail = [](const std::string& kind, const std::string& message, int code) {
+  const Processes processes(argc, argv);
+  const auto fail = [&](const std::string& kind, const std::string& message, int code) {
+    processes.let_first_speak();
     std::cout << std::flush;
     std::cerr << "rollwave: " << kind << message << std::endl;
-    return code;
+    return processes.end(code);
   };
   try {
-    act({argv + 1, argv + argc});
+    act({argv + 1, argv + argc}, processes);
     if (!(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");
     return 0;

@@ -1,6 +1,7 @@
 #include "mesh_plot.h"
 
 #include "gnuplot.h"
+#include "processes.h"
 #include "radial_shapes.h"
 
 #include <deal.II/grid/tria.h>
@@ -52,17 +53,23 @@ private:
 } // namespace
 
 std::optional<std::string> plot_mesh(const Scene& scene, const Solution& solution) {
-  std::ostringstream script;
-  script.precision(7);
-  script << "$edges << EOD\n";
-  EdgeWriter write_edge(script, solution);
+  std::ostringstream edges;
+  edges.precision(7);
+  EdgeWriter write_edge(edges, solution);
   for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     // The other two edges belong to neighbours as well.
     write_edge(cell, cell->vertex(0), cell->vertex(1));
     write_edge(cell, cell->vertex(1), cell->vertex(3));
     if (cell->at_boundary(0))
       write_edge(cell, cell->vertex(0), cell->vertex(2));
   }
+  std::ostringstream script;
+  script.precision(7);
+  script << "$edges << EOD\n";
+  for (const auto& part : gather_texts(solution.space->communicator(), edges.str()))
+    script << part;
   const double half_width = std::max(0.1, 1.4 * solution.result.patch.half_width());
   const double width = std::min(1., std::sin(std::min(half_width, 1.57)));
   // Where the lowest point of the surface is, in units of b.
@@ -83,6 +90,8 @@ set origin 0,0
          << "set xrange [" << -width << ':' << width << "]\nset yrange [" << lowest - 0.02 << ':'
          << lowest + 0.7 * width << "]\n"
          << "plot '$edges' with lines linewidth 0.5 linecolor rgb '#1f5fa8' notitle\n";
+  if (process_number(solution.space->communicator()) > 0)
+    return std::string();
   return draw_svg(script.str(), 760, 1100);
 }
 

@@ -20,17 +20,20 @@ namespace {
 MeshFigures describe_mesh(const RingSpace& space) {
   const auto& triangulation = space.dof_handler().get_triangulation();
   MeshFigures figures = {space.dof_handler().get_fe().degree,
-                         triangulation.n_active_cells(),
+                         static_cast<unsigned int>(triangulation.n_global_active_cells()),
                          space.n_unknowns(),
                          static_cast<unsigned int>(space.contact_nodes().size()),
                          std::numeric_limits<double>::max(),
                          0};
-  for (const auto& cell : triangulation.active_cell_iterators()) {
-    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
-    const double diameter = std::hypot(size[0], space.outer_radius() * size[1]);
-    figures.h_min = std::min(figures.h_min, diameter);
-    figures.h_max = std::max(figures.h_max, diameter);
-  }
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+      const double diameter = std::hypot(size[0], space.outer_radius() * size[1]);
+      figures.h_min = std::min(figures.h_min, diameter);
+      figures.h_max = std::max(figures.h_max, diameter);
+    }
+  figures.h_min = Utilities::MPI::min(figures.h_min, space.communicator());
+  figures.h_max = Utilities::MPI::max(figures.h_max, space.communicator());
   return figures;
 }
 
@@ -56,7 +59,8 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
   if (load)
     imbalance -= *load;
   for (unsigned int i = 0; i < problem.size(); ++i)
-    imbalance(space.contact_nodes()[i].dof) += force(i);
+    if (const auto dof = space.contact_nodes()[i].dof; imbalance.in_local_range(dof))
+      imbalance(dof) += force(i);
 
   double penetration = 0, negative_pressure = 0, highest_pressure = 0;
   double force_times_gap = 0, force_times_road = 0;
@@ -85,9 +89,10 @@ std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactPr
 }
 
 std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVector& field) {
+  const std::vector<double> values = space.surface_values(field);
   std::vector<SurfacePoint> points;
-  for (const SurfaceNode& node : space.surface_nodes())
-    points.push_back({node.angle, field(node.dof)});
+  for (unsigned int i = 0; i < values.size(); ++i)
+    points.push_back({space.surface_nodes()[i].angle, values[i]});
   return points;
 }
 
@@ -105,12 +110,13 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     system.force = force;
     ++work.load_assemblies;
   }
-  auto& [solver, remark] = system.stiffness;
+  auto& [solver, remark, kind] = system.stiffness;
   if (solver)
     solver->turn_to(scene, system.load, work);
   else
     system.stiffness =
         make_stiffness_solver(parameters.solver.kind, space, scene, system.load, work);
+  system.kind = kind;
   solution.problem = make_contact_problem(space, scene);
   {
     const Work::Phase phase(work, "contact");

@@ -10,12 +10,21 @@ namespace {
 
 struct StartedMpi {
   StartedMpi() {
+    int is_running = 0;
+    MPI_Initialized(&is_running);
+    if (is_running)
+      return;
+    is_own = true;
     // It ends the process where it does not get them.
     constexpr double bytes = 256. * 1024 * 1024;
     require_memory(bytes, "MPI, which iterative solution rests on,");
     MPI_Init(nullptr, nullptr);
   }
-  ~StartedMpi() { MPI_Finalize(); }
+  ~StartedMpi() {
+    if (is_own)
+      MPI_Finalize();
+  }
+  bool is_own = false;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "atomic_file.h"
 #include "errors.h"
 #include "mesh_plot.h"
+#include "processes.h"
 #include "scene_plot.h"
 #include "solution_vtu.h"
 #include "summary.h"
@@ -15,6 +16,8 @@
 #include <unistd.h>
 
 namespace rollwave {
+
+using namespace dealii;
 
 namespace {
 
@@ -30,8 +33,12 @@ std::string contact_csv(const Result& result) {
 
 } // namespace
 
-std::filesystem::path prepare_directory(const Parameters& parameters) {
+std::filesystem::path prepare_directory(const Parameters& parameters, MPI_Comm communicator) {
   const std::filesystem::path directory = parameters.output.directory;
+  if (process_number(communicator) > 0) {
+    share_text(communicator, ""); // when it is there
+    return directory;
+  }
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error == std::errc::no_space_on_device)
@@ -41,6 +48,7 @@ std::filesystem::path prepare_directory(const Parameters& parameters) {
   if (error)
     throw BadInput(refusal(parameters.settings, "Output", "Directory",
                            "this directory cannot be made or written into: " + error.message()));
+  share_text(communicator, "");
   return directory;
 }
 
@@ -54,7 +62,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
   WrittenFiles written;
   Work& work = solution.result.work;
   const double b = parameters.cylinder.outer_radius;
+  const MPI_Comm communicator = solution.space->communicator();
+  const unsigned int process = process_number(communicator);
+  const unsigned int n_processes = count_processes(communicator);
   const auto add = [&](const std::string& name, const std::string& content) {
+    if (process > 0)
+      return;
     work.bytes_written += write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
@@ -68,15 +81,26 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       add("parameters.prm", text.str());
     }
     if (parameters.wants(OutputFile::solution)) {
-      AtomicFile file(directory / "solution.vtu");
+      std::vector<std::string> pieces = {"solution.vtu"};
+      if (n_processes > 1)
+        for (pieces.clear(); pieces.size() < n_processes;)
+          pieces.push_back("solution." + std::to_string(pieces.size()) + ".vtu");
+      AtomicFile file(directory / pieces[process]);
       // The format's numbers have single precision.
       const bool fits = 1e-25 < b && b < 1e35;
       write_solution_vtu(file.stream(), solution, fits ? scene.unit : 1 / scene.outer_radius);
       if (!fits)
         written.remarks.push_back("solution.vtu gives lengths over the outer radius, since they "
                                   "leave the range of single precision");
-      work.bytes_written += file.commit();
-      written.files.push_back(directory / "solution.vtu");
+      work.bytes_written +=
+          Utilities::MPI::sum(static_cast<unsigned long>(file.commit()), communicator);
+      for (const std::string& piece : pieces)
+        written.files.push_back(directory / piece);
+      if (n_processes > 1) {
+        std::ostringstream record;
+        write_solution_pvtu(record, solution, pieces);
+        add("solution.pvtu", record.str());
+      }
     }
     const auto add_picture = [&](const std::string& name, const std::optional<std::string>& svg) {
       if (svg)
@@ -85,7 +109,8 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
         written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
     };
     if (parameters.wants(OutputFile::plot))
-      add_picture("scene.svg", plot_scene(scene, parameters, solution.result));
+      add_picture("scene.svg",
+                  process > 0 ? std::string() : plot_scene(scene, parameters, solution.result));
     if (parameters.wants(OutputFile::mesh))
       add_picture("mesh.svg", plot_mesh(scene, solution));
   }

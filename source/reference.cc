@@ -72,6 +72,8 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
 
   std::map<long long, double> radii;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     values.reinit(cell);
     for (const Point<2>& point : values.get_quadrature_points())
       radii.emplace(key(point[0]), point[0]);
@@ -89,6 +91,8 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
   std::vector<double> displacement(gauss.size());
   double squared = 0;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     values.reinit(cell);
     values.get_function_values(field, displacement);
     for (const unsigned int q : values.quadrature_point_indices()) {
@@ -97,7 +101,7 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
       squared += point[0] * (u - displacement[q]) * (u - displacement[q]) * values.JxW(q);
     }
   }
-  return std::sqrt(squared);
+  return std::sqrt(Utilities::MPI::sum(squared, space.communicator()));
 }
 
 /// Free ends allow 3/2 at most, ends cut short by the zone 1/2.

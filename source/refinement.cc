@@ -1,15 +1,18 @@
 #include "refinement.h"
 
+#include "processes.h"
+
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/p4est_wrappers.h>
-#include <deal.II/grid/grid_refinement.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 #include <deal.II/numerics/error_estimator.h>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace rollwave {
@@ -31,30 +34,74 @@ constexpr double flat_cell = 8;
 
 constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
 
+using Cell = Triangulation<2>::active_cell_iterator;
+
+/// The number of cells of all processes that are flagged for a cut.
+unsigned int count_flagged(const Triangulation<2>& triangulation) {
+  unsigned int flagged = 0;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    flagged += cell->is_locally_owned() && cell->refine_flag_set();
+  return Utilities::MPI::sum(flagged, triangulation.get_communicator());
+}
+
+/// Gives the cells next to those of a process the flags that their own processes have set.
+void exchange_flags(Triangulation<2>& triangulation) {
+  if (is_alone(triangulation.get_communicator()))
+    return;
+  GridTools::exchange_cell_data_to_ghosts<int, Triangulation<2>>(
+      triangulation,
+      [](const Cell& cell) -> std_cxx17::optional<int> {
+        return (cell->refine_flag_set() ? 1 : 0) + (cell->coarsen_flag_set() ? 2 : 0);
+      },
+      [](const Cell& cell, int flags) {
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+        if (flags & 1)
+          cell->set_refine_flag();
+        if (flags & 2)
+          cell->set_coarsen_flag();
+      });
+}
+
 /// Settles what is flagged, with the neighbours that must be cut too.
 void prepare(Triangulation<2>& triangulation) {
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->level() == finest_level)
       cell->clear_refine_flag();
-  triangulation.prepare_coarsening_and_refinement();
+  unsigned int n_before;
+  do {
+    n_before = count_flagged(triangulation);
+    exchange_flags(triangulation);
+    triangulation.prepare_coarsening_and_refinement();
+  } while (!is_alone(triangulation.get_communicator()) && count_flagged(triangulation) != n_before);
 }
 
 /// The number of active cells after the refinement that is flagged.
-unsigned int n_cells_to_come(const Triangulation<2>& triangulation) {
-  unsigned int flagged = 0;
-  for (const auto& cell : triangulation.active_cell_iterators())
-    flagged += cell->refine_flag_set() ? 1 : 0; // a refinement case, not a bool
-  return triangulation.n_active_cells() + 3 * flagged;
+double n_cells_to_come(const Triangulation<2>& triangulation) {
+  return triangulation.n_global_active_cells() + 3. * count_flagged(triangulation);
 }
 
-/// Flags the cells above and below a flagged one of their level, from hub to surface.
-void flag_column(const Triangulation<2>::active_cell_iterator& cell) {
-  for (const unsigned int face : {0U, 1U})
-    for (auto next = cell; !next->at_boundary(face) && next->neighbor(face)->is_active() &&
-                           next->neighbor(face)->level() == cell->level();) {
-      next = next->neighbor(face);
-      next->set_refine_flag();
-    }
+/// Flags the cells above and below those that are flat and flagged, from hub to surface.
+void flag_columns(Triangulation<2>& triangulation) {
+  const auto is_flat = [](const Cell& cell) {
+    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+    return cell->center()[0] * size[1] > flat_cell * size[0];
+  };
+  unsigned int n_before;
+  do { // as often as a column passes from one process to another
+    n_before = count_flagged(triangulation);
+    exchange_flags(triangulation);
+    for (const auto& cell : triangulation.active_cell_iterators())
+      if (!cell->is_artificial() && cell->refine_flag_set() && is_flat(cell))
+        for (const unsigned int face : {0U, 1U})
+          for (auto next = cell; is_flat(next) && !next->at_boundary(face) &&
+                                 next->neighbor(face)->is_active() &&
+                                 next->neighbor(face)->level() == cell->level() &&
+                                 !next->neighbor(face)->is_artificial();) {
+            next = next->neighbor(face);
+            next->set_refine_flag();
+          }
+  } while (!is_alone(triangulation.get_communicator()) && count_flagged(triangulation) != n_before);
 }
 
 /// Flags the cells from the value @p last_marked on. Mirror images have the same indicator but for
@@ -64,17 +111,53 @@ void flag_column(const Triangulation<2>::active_cell_iterator& cell) {
 /// it, at a cost that grows with the square of length over height.
 void flag(Triangulation<2>& triangulation, const Vector<double>& squares, double last_marked) {
   for (const auto& cell : triangulation.active_cell_iterators())
-    if (squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked) {
+    if (cell->is_locally_owned() && squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked)
       cell->set_refine_flag();
-      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
-      if (cell->center()[0] * size[1] > flat_cell * size[0])
-        flag_column(cell);
-    }
+  flag_columns(triangulation);
 }
 
 void clear_flags(Triangulation<2>& triangulation) {
-  for (const auto& cell : triangulation.active_cell_iterators())
+  for (const auto& cell : triangulation.active_cell_iterators()) {
     cell->clear_refine_flag();
+    cell->clear_coarsen_flag();
+  }
+}
+
+/// The squares of the own cells.
+std::vector<double> own_squares(const Triangulation<2>& triangulation,
+                                const Vector<double>& squares) {
+  std::vector<double> own;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      own.push_back(squares(cell->active_cell_index()));
+  return own;
+}
+
+/// The last of the largest values, at most 1, of all processes that add up to @p share in @p
+/// weight: what all from there on weigh. Found by bisection, the same way on one process and on
+/// many, but for ties.
+template <typename Weight>
+double last_of_share(const std::vector<double>& values, const Weight& weight, double share,
+                     MPI_Comm communicator) {
+  const auto weight_from = [&](double least) {
+    double sum = 0;
+    for (const double value : values)
+      if (value >= least)
+        sum += weight(value);
+    return Utilities::MPI::sum(sum, communicator);
+  };
+  double low = 1e-300, high = 1;
+  if (weight_from(high) >= share)
+    return high;
+  for (int halving = 0; halving < 64; ++halving) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (weight_from(middle) >= share ? low : high) = middle;
+  }
+  double last = high;
+  for (const double value : values)
+    if (value >= low)
+      last = std::min(last, value);
+  return Utilities::MPI::min(last, communicator);
 }
 
 /// Flags the cells for coarsening whose parents, of which they have the fraction @p left_to_part of
@@ -82,7 +165,8 @@ void clear_flags(Triangulation<2>& triangulation) {
 void flag_too_fine(Triangulation<2>& triangulation, const Vector<double>& squares, double most,
                    double left_to_part) {
   for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->level() > 0 && squares(cell->active_cell_index()) < left_to_part * most)
+    if (cell->is_locally_owned() && cell->level() > 0 &&
+        squares(cell->active_cell_index()) < left_to_part * most)
       cell->set_coarsen_flag();
 }
 
@@ -91,19 +175,21 @@ void flag_too_fine(Triangulation<2>& triangulation, const Vector<double>& square
 /// Returns the value of the last.
 double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>& squares,
                            double last_marked, double most_cells) {
-  std::vector<double> marked;
-  for (const double square : squares)
-    if (square >= last_marked)
-      marked.push_back(square);
-  std::sort(marked.begin(), marked.end(), std::greater<>());
-  const double n_now = triangulation.n_active_cells();
-  for (double n_marked = marked.size();;) {
+  const MPI_Comm communicator = triangulation.get_communicator();
+  const std::vector<double> own = own_squares(triangulation, squares);
+  const double n_now = triangulation.n_global_active_cells();
+  double n_marked = Utilities::MPI::sum(
+      double(std::count_if(own.begin(), own.end(),
+                           [last_marked](double square) { return square >= last_marked; })),
+      communicator);
+  for (;;) {
     // Neighbours that must be cut too come on top of the marked cells.
     n_marked *= 0.98 * (most_cells - n_now) / (n_cells_to_come(triangulation) - n_now);
     clear_flags(triangulation);
     if (n_marked < 1 || n_marked < 0.003 * n_now)
       return last_marked;
-    last_marked = marked[static_cast<std::size_t>(n_marked) - 1];
+    last_marked = last_of_share(
+        own, [](double) { return 1.; }, std::floor(n_marked), communicator);
     flag(triangulation, squares, last_marked);
     prepare(triangulation);
     if (n_cells_to_come(triangulation) <= most_cells)
@@ -116,6 +202,8 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>
 void execute(Triangulation<2>& triangulation, Vector<double>& squares, double left_to_part) {
   triangulation.clear_user_data();
   for (const auto& cell : triangulation.active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     cell->set_user_index(cell->active_cell_index() + 1);
     if (cell->coarsen_flag_set()) {
       cell->parent()->set_user_index(cell->active_cell_index() + 1);
@@ -125,53 +213,48 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
   triangulation.execute_coarsening_and_refinement();
   Vector<double> inherited(triangulation.n_active_cells());
   for (const auto& cell : triangulation.active_cell_iterators())
-    inherited(cell->active_cell_index()) =
-        cell->user_index() > 0 ? squares(cell->user_index() - 1)
-                               : left_to_part * squares(cell->parent()->user_index() - 1);
+    if (cell->is_locally_owned())
+      inherited(cell->active_cell_index()) =
+          cell->user_index() > 0 ? squares(cell->user_index() - 1)
+                                 : left_to_part * squares(cell->parent()->user_index() - 1);
   squares = inherited;
 }
 
-} // namespace
-
-bool is_at_finest_level(const Triangulation<2>& triangulation) {
-  return triangulation.n_levels() > finest_level;
-}
-
-bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                 Marking marking, double fraction, unsigned int degree, double most_cells,
-                 bool coarsens) {
+/// Refines as refine_mesh(), without giving cells to other processes.
+bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>& indicators,
+                     Marking marking, double fraction, unsigned int degree, double most_cells,
+                     bool coarsens) {
+  const MPI_Comm communicator = triangulation.get_communicator();
   Vector<double> squares(indicators.size());
-  const double largest = *std::max_element(indicators.begin(), indicators.end());
+  const double largest =
+      Utilities::MPI::max(*std::max_element(indicators.begin(), indicators.end()), communicator);
   for (unsigned int i = 0; i < indicators.size() && largest > 0; ++i)
     squares(i) = indicators[i] / largest * (indicators[i] / largest);
-  switch (marking) {
-  case Marking::bulk:
-    GridRefinement::refine_and_coarsen_fixed_fraction(triangulation, squares, fraction, 0.);
-    break;
-  case Marking::number:
-    GridRefinement::refine_and_coarsen_fixed_number(triangulation, squares, fraction, 0.);
-    break;
-  case Marking::all:
-    break;
-  }
   double last_marked = std::numeric_limits<double>::infinity();
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->refine_flag_set())
-      last_marked = std::min(last_marked, squares(cell->active_cell_index()));
+  if (largest > 0 && fraction > 0 && marking != Marking::all) {
+    const std::vector<double> own = own_squares(triangulation, squares);
+    const auto count = [](double) { return 1.; };
+    const auto value = [](double square) { return square; };
+    const double whole =
+        Utilities::MPI::sum(std::accumulate(own.begin(), own.end(), 0.), communicator);
+    last_marked = marking == Marking::bulk
+                      ? last_of_share(own, value, fraction * whole, communicator)
+                      : last_of_share(own, count, fraction * triangulation.n_global_active_cells(),
+                                      communicator);
+  }
   const double left_to_part = std::pow(4., -(degree + 1.));
   bool is_changed = false;
+  clear_flags(triangulation);
   if (coarsens) {
-    clear_flags(triangulation);
     flag_too_fine(triangulation, squares, last_marked / 2, left_to_part);
     prepare(triangulation);
-    const unsigned int n_before = triangulation.n_active_cells();
+    const auto n_before = triangulation.n_global_active_cells();
     execute(triangulation, squares, left_to_part);
-    is_changed = triangulation.n_active_cells() != n_before;
+    is_changed = triangulation.n_global_active_cells() != n_before;
   }
   if (marking == Marking::all)
-    triangulation.set_all_refine_flags();
-  else if (last_marked > 0)
-    flag(triangulation, squares, last_marked);
+    last_marked = 0;
+  flag(triangulation, squares, last_marked);
   prepare(triangulation);
   if (n_cells_to_come(triangulation) > most_cells) {
     if (marking == Marking::all) {
@@ -180,20 +263,39 @@ bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& ind
     }
     last_marked = flag_as_many_as_fit(triangulation, squares, last_marked, most_cells);
   }
-  if (n_cells_to_come(triangulation) == triangulation.n_active_cells())
+  if (count_flagged(triangulation) == 0)
     return is_changed;
   execute(triangulation, squares, left_to_part);
-  while (marking != Marking::all && last_marked > 0) {
+  while (marking != Marking::all) {
     for (const auto& cell : triangulation.active_cell_iterators())
-      if (cell->user_index() == 0 && squares(cell->active_cell_index()) > last_marked)
+      if (cell->is_locally_owned() && cell->user_index() == 0 &&
+          squares(cell->active_cell_index()) > last_marked)
         cell->set_refine_flag();
     prepare(triangulation);
-    const unsigned int n_next = n_cells_to_come(triangulation);
-    if (n_next == triangulation.n_active_cells() || n_next > most_cells)
+    if (count_flagged(triangulation) == 0 || n_cells_to_come(triangulation) > most_cells)
       break;
     execute(triangulation, squares, left_to_part);
   }
+  clear_flags(triangulation);
   return true;
+}
+
+} // namespace
+
+bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
+                 Marking marking, double fraction, unsigned int degree, double most_cells,
+                 bool coarsens) {
+  const bool is_changed =
+      refine_in_place(triangulation, indicators, marking, fraction, degree, most_cells, coarsens);
+  if (auto* const distributed =
+          dynamic_cast<parallel::distributed::Triangulation<2>*>(&triangulation);
+      distributed && is_changed)
+    distributed->repartition();
+  return is_changed;
+}
+
+bool is_at_finest_level(const Triangulation<2>& triangulation) {
+  return triangulation.n_global_levels() > finest_level;
 }
 
 } // namespace rollwave

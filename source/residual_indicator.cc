@@ -51,7 +51,7 @@ public:
   explicit Lines(const RingSpace& space) {
     for (const auto& cell : space.dof_handler().active_cell_iterators())
       for (const unsigned int f : {2U, 3U})
-        if (cell->at_boundary(f))
+        if (!cell->is_artificial() && cell->at_boundary(f))
           seam[f - 2][{cell->face(f)->vertex(0)[0], cell->face(f)->vertex(1)[0]}] =
               cell->face(f)->index();
   }
@@ -138,6 +138,8 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   std::vector<double> squares(triangulation.n_active_cells());
   std::vector<double> factor(triangulation.n_active_cells());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
     const Rectangle box = rectangle_of(cell);
     const CellField u = gather(cell);
     const double h_r = box.height(), h_z = box.length();
@@ -183,6 +185,10 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   }
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned()) {
+      squares[cell->active_cell_index()] = 0;
+      continue;
+    }
     const Rectangle box = rectangle_of(cell);
     double sum = 0;
     for (const unsigned int f : cell->face_indices()) {
@@ -200,23 +206,23 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
     squares[cell->active_cell_index()] += factor[cell->active_cell_index()] * sum;
   }
 
-  std::map<types::global_dof_index, unsigned int> contact_index;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    contact_index[space.contact_nodes()[i].dof] = i;
   const double b = scene.outer_radius;
-  for (const SurfaceFace& face : space.surface_faces()) {
-    const Rectangle box = rectangle_of(face.cell);
-    const CellField u = gather(face.cell);
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned() || !cell->at_boundary(1))
+      continue;
+    const SurfaceFace& face = space.surface_faces()[*space.surface_face(cell)];
+    const Rectangle box = rectangle_of(cell);
+    const CellField u = gather(cell);
     std::array<double, 9> pressure = {};
     unsigned int n_active = 0, n_contact = 0;
     for (unsigned int k = 0; k < n; ++k)
-      if (const auto found = contact_index.find(face.dofs[k]); found != contact_index.end()) {
-        pressure[k] = contact.state.force(found->second) / problem.weight(found->second);
-        n_active += contact.active[found->second];
+      if (const auto node = space.contact_number(face.nodes[k])) {
+        pressure[k] = contact.state.force(*node) / problem.weight(*node);
+        n_active += contact.active[*node];
         ++n_contact;
       }
     const double h_r = box.height(), h_z = box.length();
-    double& square = squares[face.cell->active_cell_index()];
+    double& square = squares[cell->active_cell_index()];
     for (unsigned int q = 0; q < n; ++q) {
       double lambda = 0, displacement = 0, slope = 0;
       for (unsigned int k = 0; k < n; ++k) {
@@ -226,13 +232,14 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       }
       const double weight = gauss.weight(q) * h_z;
       const double imbalance = b * (u.sum(ends.first[1], inside.value[q]) / h_r + lambda);
-      square += factor[face.cell->active_cell_index()] / h_r * weight * imbalance * imbalance;
+      square += factor[cell->active_cell_index()] / h_r * weight * imbalance * imbalance;
       const double z = face.begin + (face.end - face.begin) * points[q][0];
       if (n_contact == 0 || n_active == n || z < scene.zone_begin || z > scene.zone_end)
         continue;
       const double gap = scene.road(z) - displacement;
-      if (gap >= 0)
-        square += 2 * b * weight * std::max(0., lambda) * gap;
+      // The point may be an active node, where the gap is round-off of either sign.
+      if (gap >= -1e-13 * std::abs(displacement))
+        square += 2 * b * weight * std::max(0., lambda) * std::max(0., gap);
       else {
         const double steepness = slope - scene.road_slope(z);
         const double alpha = scene.alpha((box.r0 + box.r1) / 2);

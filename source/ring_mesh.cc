@@ -3,10 +3,12 @@
 #include "errors.h"
 #include "memory.h"
 #include "parameters.h"
+#include "processes.h"
 #include "scene.h"
 
 #include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
+#include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
@@ -99,7 +101,8 @@ std::string count_text(double count) {
 
 } // namespace
 
-std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters) {
+std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters,
+                                                 MPI_Comm communicator) {
   const auto& mesh = parameters.mesh;
   const double unknowns = std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) *
                           mesh.radial_cells * mesh.angular_cells;
@@ -112,8 +115,8 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
   // What the cells alone occupy at least, whatever is solved on them.
   require_memory(200. * unknowns / (mesh.degree * mesh.degree), "the mesh");
 
-  auto triangulation =
-      std::make_unique<Triangulation<2>>(Triangulation<2>::limit_level_difference_at_vertices);
+  constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
+  auto triangulation = std::make_unique<Triangulation<2>>(smoothing);
   const std::vector<double> radii =
       radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
   const std::vector<double> angles = angles_of(scene, parameters);
@@ -127,11 +130,21 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
         return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
       },
       *triangulation);
+  using Distributed = parallel::distributed::Triangulation<2>;
+  if (!is_alone(communicator)) {
+    // Cells change their process when a refinement is complete, and not before.
+    auto distributed = std::make_unique<Distributed>(communicator, smoothing,
+                                                     Distributed::no_automatic_repartitioning);
+    distributed->copy_triangulation(*triangulation);
+    triangulation = std::move(distributed);
+  }
   std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
   GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
                                     seam);
   triangulation->add_periodicity(seam);
   triangulation->refine_global(mesh.global_refinements);
+  if (auto* const distributed = dynamic_cast<Distributed*>(triangulation.get()))
+    distributed->repartition();
   return triangulation;
 }
 

@@ -2,6 +2,7 @@
 
 #include "errors.h"
 #include "nested_dissection.h"
+#include "processes.h"
 #include "ring_mesh.h"
 #include "scene.h"
 
@@ -23,6 +24,8 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
 
+  DoFTools::extract_locally_relevant_dofs(handler, relevant);
+  affine_constraints.reinit(relevant);
   // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
   // the seam twice.
   DoFTools::make_hanging_node_constraints(handler, affine_constraints);
@@ -31,66 +34,140 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   VectorTools::interpolate_boundary_values(cartesian, handler, hub_id, Functions::ZeroFunction<2>(),
                                            affine_constraints);
   affine_constraints.close();
-  find_surface_nodes(scene);
-  order = dissect(handler);
-}
+  const IndexSet& owned = handler.locally_owned_dofs();
+  unsigned int n_own_unknowns = 0;
+  for (const auto dof : owned)
+    n_own_unknowns += !affine_constraints.is_constrained(dof);
+  unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
 
-unsigned int RingSpace::n_unknowns() const {
-  return handler.n_dofs() - affine_constraints.n_constraints();
+  if (is_alone(communicator()))
+    order = dissect(handler);
+  else
+    for (const auto& line : affine_constraints.get_lines())
+      for (const auto& entry : line.entries)
+        relevant.add_index(entry.first);
+  partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
+  find_surface_nodes(scene);
 }
 
 void RingSpace::find_surface_nodes(const Scene& scene) {
-  const QGaussLobatto<1> lobatto(element.degree + 1);
+  const unsigned int n = element.degree + 1;
+  const QGaussLobatto<1> lobatto(n);
   FEFaceValues<2> face_values(cartesian, element, lobatto,
                               update_values | update_quadrature_points | update_JxW_values);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  const double middle = (scene.zone_begin + scene.zone_end) / 2;
 
-  std::map<types::global_dof_index, SurfaceNode> nodes;
+  // The nodes of the own edges, n for each: angles, weights and numbers.
+  std::vector<double> own_begins, own_angles, own_weights;
+  std::vector<types::global_dof_index> own_dofs;
   for (const auto& cell : handler.active_cell_iterators())
-    for (const auto& face : cell->face_iterators())
-      if (face->at_boundary() && face->boundary_id() == surface_id) {
-        face_values.reinit(cell, face);
-        cell->get_dof_indices(dofs);
-        faces.push_back({cell, 0, 0, {}});
-        const double turn =
-            2 * numbers::PI * std::floor((face->center()[1] - middle) / (2 * numbers::PI) + 0.5);
-        faces.back().begin = face_values.quadrature_point(0)[1] - turn;
-        faces.back().end = face_values.quadrature_point(lobatto.size() - 1)[1] - turn;
-        for (const unsigned int q : face_values.quadrature_point_indices())
-          for (const unsigned int i : face_values.dof_indices())
-            // The quadrature points are the nodes, where one shape function is 1, the others 0.
-            if (face_values.shape_value(i, q) > 0.5) {
-              // A node on the seam counts as the node that its constraint equates it with.
-              types::global_dof_index dof = dofs[i];
-              if (const auto* entries = affine_constraints.get_constraint_entries(dof))
-                dof = entries->front().first;
-              faces.back().dofs.push_back(dof);
-              const double z = face_values.quadrature_point(q)[1];
-              const double angle =
-                  z - 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);
-              auto& node = nodes.emplace(dof, SurfaceNode{dof, angle, 0.}).first->second;
-              node.weight += scene.outer_radius * face_values.JxW(q);
-            }
-      }
+    if (cell->is_locally_owned())
+      for (const auto& face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() == surface_id) {
+          face_values.reinit(cell, face);
+          cell->get_dof_indices(dofs);
+          own_begins.push_back(cell->vertex(1)[1]);
+          for (const unsigned int q : face_values.quadrature_point_indices())
+            for (const unsigned int i : face_values.dof_indices())
+              // The quadrature points are the nodes, where one shape function is 1, the others 0.
+              if (face_values.shape_value(i, q) > 0.5) {
+                // A node on the seam counts as the node that its constraint equates it with.
+                types::global_dof_index dof = dofs[i];
+                if (const auto* entries = affine_constraints.get_constraint_entries(dof))
+                  dof = entries->front().first;
+                own_dofs.push_back(dof);
+                own_angles.push_back(face_values.quadrature_point(q)[1]);
+                own_weights.push_back(scene.outer_radius * face_values.JxW(q));
+              }
+        }
+  const auto all_begins = Utilities::MPI::all_gather(communicator(), own_begins);
+  const auto all_angles = Utilities::MPI::all_gather(communicator(), own_angles);
+  const auto all_weights = Utilities::MPI::all_gather(communicator(), own_weights);
+  const auto all_dofs = Utilities::MPI::all_gather(communicator(), own_dofs);
 
-  std::sort(faces.begin(), faces.end(), [](const auto& left, const auto& right) {
-    return left.cell->center()[1] < right.cell->center()[1];
-  });
+  // The edges of all processes, from the seam on.
+  struct Edge {
+    double begin;
+    unsigned int process, number;
+    bool operator<(const Edge& other) const { return begin < other.begin; }
+  };
+  std::vector<Edge> edges;
+  for (unsigned int process = 0; process < all_begins.size(); ++process)
+    for (unsigned int k = 0; k < all_begins[process].size(); ++k)
+      edges.push_back({all_begins[process][k], process, k});
+  std::sort(edges.begin(), edges.end());
+
+  const double middle = (scene.zone_begin + scene.zone_end) / 2;
+  const auto turn = [middle](double z) {
+    return 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);
+  };
+  std::map<types::global_dof_index, SurfaceNode> nodes;
+  for (const Edge& edge : edges)
+    for (unsigned int k = edge.number * n; k < (edge.number + 1) * n; ++k) {
+      const auto dof = all_dofs[edge.process][k];
+      const double z = all_angles[edge.process][k];
+      auto& node = nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second;
+      node.weight += all_weights[edge.process][k];
+    }
   for (const auto& [dof, node] : nodes)
     surface.push_back(node);
   std::sort(surface.begin(), surface.end(),
             [](const auto& left, const auto& right) { return left.angle < right.angle; });
+  std::map<types::global_dof_index, unsigned int> number_of_dof;
+  for (unsigned int i = 0; i < surface.size(); ++i)
+    number_of_dof[surface[i].dof] = i;
+
+  for (const Edge& edge : edges) {
+    const unsigned int first = edge.number * n;
+    const auto& angles = all_angles[edge.process];
+    const double turned = turn((angles[first] + angles[first + n - 1]) / 2);
+    SurfaceFace face = {angles[first] - turned, angles[first + n - 1] - turned, {}};
+    for (unsigned int k = first; k < first + n; ++k)
+      face.nodes.push_back(number_of_dof.at(all_dofs[edge.process][k]));
+    face_from[edge.begin] = faces.size();
+    faces.push_back(std::move(face));
+  }
 
   // Angles carry round-off of a few units in the last place.
   const double tolerance = 1e-13;
-  for (const SurfaceNode& node : surface)
-    if (node.angle >= scene.zone_begin - tolerance && node.angle <= scene.zone_end + tolerance)
-      contact.push_back(node);
+  for (unsigned int i = 0; i < surface.size(); ++i)
+    if (surface[i].angle >= scene.zone_begin - tolerance &&
+        surface[i].angle <= scene.zone_end + tolerance) {
+      if (contact.empty())
+        first_contact = i;
+      contact.push_back(surface[i]);
+    }
   if (contact.empty())
     throw BadInput("no node of the mesh lies in the contact zone from " +
                    std::to_string(scene.zone_begin) + " to " + std::to_string(scene.zone_end) +
                    "; raise Mesh/Angular cells or widen Road/Contact zone");
+}
+
+std::optional<unsigned int>
+RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
+  if (!cell->at_boundary(1))
+    return {};
+  return face_from.at(cell->vertex(1)[1]);
+}
+
+std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
+  return values_at(surface, field);
+}
+
+Vector<double> RingSpace::contact_values(const FieldVector& field) const {
+  const std::vector<double> values = values_at(contact, field);
+  return Vector<double>(values.begin(), values.end());
+}
+
+std::vector<double> RingSpace::values_at(const std::vector<SurfaceNode>& nodes,
+                                         const FieldVector& field) const {
+  // A sum with zeros is exact in any order, so that all processes get the same digits.
+  std::vector<double> values(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (field.in_local_range(nodes[i].dof))
+      values[i] = field(nodes[i].dof);
+  Utilities::MPI::sum(values, communicator(), values);
+  return values;
 }
 
 } // namespace rollwave

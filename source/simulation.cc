@@ -4,6 +4,7 @@
 #include "interrupt.h"
 #include "load_bounds.h"
 #include "mesh_solution.h"
+#include "processes.h"
 #include "refinement.h"
 #include "residual_indicator.h"
 #include "ring_mesh.h"
@@ -36,9 +37,8 @@ Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNod
 }
 
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
-  solution.certificate =
-      certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-              solution.system.potential, solution.result.work);
+  solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
+                                 on_mesh.displacement, solution.system, solution.result.work);
   solution.result.certified = solution.certificate->error;
   solution.result.cycles.back().certified = solution.certificate->error.relative;
 }
@@ -103,7 +103,11 @@ std::string residual_text(const Residuals& residuals) {
 /// Which parts of the linear problems are kept when they have been used.
 enum class Keep { nothing, everything };
 
-Solution run(const Scene& scene, const Parameters& parameters, Solution previous, Keep keep) {
+Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
+             Solution previous, Keep keep) {
+  if (parameters.solver.kind == SolverKind::direct && !is_alone(communicator))
+    throw BadInput(refusal(parameters.settings, "Solver", "Kind",
+                           "the direct kind needs one process; on several use auto or iterative"));
   const auto& mesh = parameters.mesh;
   const bool certifies = parameters.certificate.error_bound;
   const bool wants_error = mesh.wanted_relative_error > 0;
@@ -120,7 +124,7 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
   const bool continues = solution.triangulation != nullptr;
   if (!continues) {
     const Work::Phase phase(solution.result.work, "mesh");
-    solution.triangulation = make_ring_mesh(scene, parameters);
+    solution.triangulation = make_ring_mesh(scene, parameters, communicator);
   }
   // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
   // solved before.
@@ -131,7 +135,7 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
       const Work::Phase phase(result.work, "space");
       solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
     }
-    if (cycle == 0 && is_interrupted())
+    if (cycle == 0 && is_interrupted(communicator))
       throw Interrupted("interrupted before the first mesh was solved");
     const bool is_last = cycle == most_cycles;
     const bool is_used_again =
@@ -147,14 +151,15 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
       certify_solution(scene, on_mesh, solution);
     const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
     const bool is_finished = is_reached || is_last;
-    result.is_interrupted = !result.shortfall.empty() || (!is_finished && is_interrupted());
+    result.is_interrupted =
+        !result.shortfall.empty() || (!is_finished && is_interrupted(communicator));
     if (!is_finished && !result.is_interrupted) {
       const std::vector<double> indicators = indicate(indicator, scene, on_mesh, solution);
       if (refine(indicators, parameters, continues && cycle == 0, solution)) {
         double squared = 0;
         for (const double eta : indicators)
           squared += eta * eta;
-        result.cycles.back().indicated = std::sqrt(squared);
+        result.cycles.back().indicated = std::sqrt(Utilities::MPI::sum(squared, communicator));
         continue;
       }
     }
@@ -177,12 +182,13 @@ Solution run(const Scene& scene, const Parameters& parameters, Solution previous
 
 } // namespace
 
-Solution simulate(const Scene& scene, const Parameters& parameters) {
-  return run(scene, parameters, {}, Keep::nothing);
+Solution simulate(const Scene& scene, const Parameters& parameters, MPI_Comm communicator) {
+  return run(scene, parameters, communicator, {}, Keep::nothing);
 }
 
-Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous) {
-  return run(scene, parameters, std::move(previous), Keep::everything);
+Solution simulate_next(const Scene& scene, const Parameters& parameters, Solution previous,
+                       MPI_Comm communicator) {
+  return run(scene, parameters, communicator, std::move(previous), Keep::everything);
 }
 
 } // namespace rollwave

@@ -21,18 +21,6 @@ using Patch = DataOutBase::Patch<2>;
 /// A piece of the file is as many cells: their patches take several times the memory of the mesh.
 constexpr std::size_t cells_in_piece = 50000;
 
-/// lambda on the surface, for each degree of freedom; not a number elsewhere.
-std::vector<float> nodal_pressure(const Solution& solution) {
-  const RingSpace& space = *solution.space;
-  std::vector<float> pressure(space.dof_handler().n_dofs(),
-                              std::numeric_limits<float>::quiet_NaN());
-  for (const SurfaceNode& node : space.surface_nodes())
-    pressure[node.dof] = 0;
-  for (unsigned int i = 0; i < space.contact_nodes().size(); ++i)
-    pressure[space.contact_nodes()[i].dof] = solution.result.contact_rows[i].pressure;
-  return pressure;
-}
-
 /// Makes a patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCells {
 public:
@@ -42,7 +30,7 @@ public:
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
                update_quadrature_points),
-        pressure(nodal_pressure(solution)), dofs(element.n_dofs_per_cell()) {
+        dofs(element.n_dofs_per_cell()) {
     if (solution.certificate)
       names.push_back("certified_error");
   }
@@ -65,18 +53,21 @@ public:
       const double u = solution.displacement(dofs[node]);
       const double r = values.quadrature_point(node)[0] + u;
       const double z = values.quadrature_point(node)[1];
-      // A node on the seam and the node that equals it carry the same pressure.
-      types::global_dof_index dof = dofs[node];
-      if (std::isnan(pressure[dof]))
-        if (const auto* entries = space.constraints().get_constraint_entries(dof))
-          if (entries->size() == 1)
-            dof = entries->front().first;
       patch.data(0, i) = u * unit;
-      patch.data(1, i) = pressure[dof];
+      patch.data(1, i) = std::numeric_limits<float>::quiet_NaN();
       if (solution.certificate)
         patch.data(2, i) = solution.certificate->cell_bounds[cell->active_cell_index()] * unit;
       patch.data(x_row, i) = r * std::cos(z) * unit;
       patch.data(y_row, i) = r * std::sin(z) * unit;
+    }
+    if (const auto face = space.surface_face(cell)) {
+      const auto& nodes = space.surface_faces()[*face].nodes;
+      const unsigned int n = nodes.size();
+      for (unsigned int k = 0; k < n; ++k) {
+        const auto contact = space.contact_number(nodes[k]);
+        patch.data(1, n - 1 + n * k) =
+            contact ? solution.result.contact_rows[*contact].pressure : 0;
+      }
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
@@ -91,19 +82,33 @@ private:
   /// From the order of points in a patch, r running fastest, to the element's own order.
   const std::vector<unsigned int> numbering;
   FEValues<2> values;
-  const std::vector<float> pressure;
   std::vector<types::global_dof_index> dofs;
   std::vector<std::string> names = {"displacement", "pressure"};
 };
 
 } // namespace
 
-void write_solution_vtu(std::ostream& out, const Solution& solution, double unit) {
-  DeformedCells cells(solution, unit);
+namespace {
+
+DataOutBase::VtkFlags vtk_flags(const Solution& solution) {
   DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;
   flags.print_date_and_time = false; // a run repeated gives the same file
   flags.compression_level = decltype(flags.compression_level)::best_speed;
+  return flags;
+}
+
+} // namespace
+
+void write_solution_pvtu(std::ostream& out, const Solution& solution,
+                         const std::vector<std::string>& pieces) {
+  DataOutBase::write_pvtu_record(out, pieces, DeformedCells(solution, 1).dataset_names(), {},
+                                 vtk_flags(solution));
+}
+
+void write_solution_vtu(std::ostream& out, const Solution& solution, double unit) {
+  DeformedCells cells(solution, unit);
+  const DataOutBase::VtkFlags flags = vtk_flags(solution);
   try {
     DataOutBase::write_vtu_header(out, flags);
     std::vector<Patch> patches;
@@ -112,6 +117,8 @@ void write_solution_vtu(std::ostream& out, const Solution& solution, double unit
       patches.clear();
     };
     for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {
+      if (!cell->is_locally_owned())
+        continue;
       if (patches.size() == cells_in_piece)
         write_piece();
       patches.push_back(cells.patch(cell, patches.size()));

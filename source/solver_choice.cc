@@ -3,13 +3,20 @@
 #include "direct_solver.h"
 #include "errors.h"
 #include "iterative_solver.h"
+#include "processes.h"
 
 namespace rollwave {
+
+using namespace dealii;
 
 SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                                    const std::optional<FieldVector>& load, Work& work) {
   SolverChoice choice;
   std::string direct_shortage;
+  if (!is_alone(space.communicator())) {
+    AssertThrow(kind != SolverKind::direct, ExcInternalError());
+    kind = SolverKind::iterative;
+  }
   if (kind != SolverKind::iterative)
     try {
       choice.solver = std::make_unique<DirectSolver>(space, scene);
@@ -22,6 +29,7 @@ SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, cons
       choice.solver.reset(); // the other one needs its memory
       choice.remark = "solved iteratively: " + direct_shortage;
     }
+  choice.kind = SolverKind::iterative;
   try {
     choice.solver = std::make_unique<IterativeSolver>(space);
     choice.solver->turn_to(scene, load, work);

@@ -3,6 +3,7 @@
 #include "atomic_file.h"
 #include "errors.h"
 #include "output.h"
+#include "processes.h"
 #include "simulation.h"
 #include "true_errors.h"
 #include "verification.h"
@@ -21,6 +22,8 @@
 #include <utility>
 
 namespace rollwave {
+
+using namespace dealii;
 
 namespace {
 
@@ -63,7 +66,8 @@ std::vector<Plan> make_plans(const Parameters& parameters) {
 
 /// The adaptive solution with quadratic elements that errors are measured against where no exact
 /// one is known.
-Reference compute_reference(const Scene& scene, const Parameters& parameters) {
+Reference compute_reference(const Scene& scene, const Parameters& parameters,
+                            MPI_Comm communicator) {
   std::vector<Setting> settings = parameters.settings;
   const auto set = [&](const std::string& section, const std::string& key,
                        const std::string& value) {
@@ -78,7 +82,7 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters) {
   set("Mesh", "Most unknowns", std::to_string(parameters.study.reference_unknowns));
   set("Contact", "Method", "active set");
   set("Certificate", "Error bound", "true");
-  const Solution solution = simulate(scene, read_parameters(settings));
+  const Solution solution = simulate(scene, read_parameters(settings), communicator);
   if (solution.result.is_interrupted)
     throw Interrupted(solution.result.shortfall);
   std::ostringstream name;
@@ -91,6 +95,8 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters) {
 /// Runs that differ in their mesh only share their reference.
 class References {
 public:
+  explicit References(MPI_Comm communicator) : communicator(communicator) {}
+
   const Reference& find(const Scene& scene, const Parameters& parameters) {
     const auto key = std::tuple(scene.inner_radius, scene.outer_radius, scene.angular_velocity,
                                 parameters.road.distance, parameters.cylinder.radial_force,
@@ -100,11 +106,13 @@ public:
       return known->second;
     const auto exact = find_exact_solution(scene, parameters);
     return references
-        .emplace(key, exact ? exact_reference(*exact) : compute_reference(scene, parameters))
+        .emplace(key, exact ? exact_reference(*exact)
+                            : compute_reference(scene, parameters, communicator))
         .first->second;
   }
 
 private:
+  const MPI_Comm communicator;
   std::map<std::tuple<double, double, double, double, std::string, double, double>, Reference>
       references;
 };
@@ -135,6 +143,8 @@ bool continues_mesh(const Parameters& parameters) {
 /// possible.
 class Sweep {
 public:
+  explicit Sweep(MPI_Comm communicator) : communicator(communicator) {}
+
   /// Announces a run. Where the zone of contact is left to the program, the runs that share a mesh
   /// share the widest zone, in which the roads of the others cannot be touched either.
   void announce(const Scene& scene, const Parameters& parameters) {
@@ -157,10 +167,10 @@ public:
     last_key.reset(); // a run that fails leaves nothing
     const auto entry = shared.find(key);
     if (entry == shared.end() || entry->second.n_runs == 1)
-      return solution = simulate(scene, parameters);
+      return solution = simulate(scene, parameters, communicator);
     scene.zone_begin = entry->second.zone_begin;
     scene.zone_end = entry->second.zone_end;
-    solution = simulate_next(scene, parameters, std::move(previous));
+    solution = simulate_next(scene, parameters, std::move(previous), communicator);
     last_key = key;
     return solution;
   }
@@ -172,6 +182,7 @@ private:
     unsigned int n_runs;
   };
 
+  const MPI_Comm communicator;
   std::map<MeshKey, Shared> shared;
   std::optional<MeshKey> last_key;
   Solution solution;
@@ -183,15 +194,18 @@ std::string parameters_text(const Parameters& parameters) {
   return text.str();
 }
 
-/// The runs that an earlier call has finished; otherwise makes the directory that of
-/// this study.
-std::vector<StudyRun> finished_runs(const Parameters& parameters,
-                                    const std::filesystem::path& directory) {
+std::string read_text(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// The study.csv of an earlier call of this study, empty when there is none; otherwise makes the
+/// directory that of this study.
+std::string claim_directory(const Parameters& parameters, const std::filesystem::path& directory) {
   const std::string own = parameters_text(parameters);
-  std::ostringstream earlier;
-  earlier << std::ifstream(directory / "parameters.prm").rdbuf();
-  if (own == earlier.str())
-    return read_study_csv(directory / "study.csv");
+  if (own == read_text(directory / "parameters.prm"))
+    return read_text(directory / "study.csv");
   // In this order: rows beside the parameters of another study would be taken for its own.
   std::error_code error;
   std::filesystem::remove(directory / "study.csv", error);
@@ -243,21 +257,24 @@ void write_runs(const Parameters& parameters, const std::filesystem::path& direc
 } // namespace
 
 Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
-                std::ostream& progress) {
+                std::ostream& progress, MPI_Comm communicator) {
+  const bool is_first = process_number(communicator) == 0;
   const std::vector<Plan> plans = make_plans(parameters);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())
     throw BadInput(refusal(parameters.settings, "Study", "Published steps",
                            "there are " + std::to_string(published.size()) + " entries for " +
                                std::to_string(plans.size()) + " runs"));
-  Sweep sweep;
+  Sweep sweep(communicator);
   for (const Plan& plan : plans)
     sweep.announce(make_scene(plan.parameters), plan.parameters);
 
-  const auto finished = runs_to_keep(finished_runs(parameters, directory), plans);
+  const std::string earlier =
+      share_text(communicator, is_first ? claim_directory(parameters, directory) : std::string());
+  const auto finished = runs_to_keep(read_study_csv(earlier), plans);
   Study study;
   auto& runs = study.runs;
-  References references;
+  References references(communicator);
   for (const Plan& plan : plans) {
     StudyRun run;
     run.scene = plan.scene;
@@ -295,7 +312,8 @@ Study run_study(const Parameters& parameters, const std::filesystem::path& direc
     if (!run.failure.empty())
       progress << "  not solved: " << run.failure << std::endl;
     runs.push_back(std::move(run));
-    write_runs(parameters, directory, runs);
+    if (is_first)
+      write_runs(parameters, directory, runs);
   }
   return study;
 }

@@ -159,8 +159,8 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
   return out.str();
 }
 
-std::vector<StudyRun> read_study_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
+std::vector<StudyRun> read_study_csv(const std::string& text) {
+  std::istringstream in(text);
   std::string line;
   std::vector<StudyRun> runs;
   std::getline(in, line);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace rollwave {
 
@@ -16,12 +17,13 @@ namespace {
 SurfaceFunction trace_of(const RingSpace& space, const FieldVector& field) {
   SurfaceFunction trace;
   const auto shapes = lobatto_lagrange(space.dof_handler().get_fe().degree);
+  const auto values = std::make_shared<std::vector<double>>(space.surface_values(field));
   for (const SurfaceFace& face : space.surface_faces())
-    trace.push_back({face.begin, face.end, [&face, &field, shapes](double z) {
+    trace.push_back({face.begin, face.end, [&face, values, shapes](double z) {
                        const double t = (z - face.begin) / (face.end - face.begin);
                        double sum = 0;
                        for (unsigned int i = 0; i < shapes.size(); ++i)
-                         sum += field(face.dofs[i]) * shapes[i].value(t);
+                         sum += (*values)[face.nodes[i]] * shapes[i].value(t);
                        return sum;
                      }});
   return trace;

@@ -136,7 +136,7 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
     solution.history.push_back(step);
     // A scene without contact is solved when the first projection leaves p at zero.
     const bool is_converged = measured <= settings.tolerance * size;
-    if (!is_converged && is_interrupted())
+    if (!is_converged && is_interrupted(problem.communicator))
       solution.shortfall = interruption_text(settings, solution.history);
     if (is_converged || !solution.shortfall.empty()) {
       if (residual > final_accuracy)

@@ -240,7 +240,7 @@ TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
     const Parameters parameters = parameters_of(assignments);
     Scene scene = make_scene(parameters);
     scene.road = [road = scene.road](double z) {
-      if (!is_interrupted())
+      if (!is_interrupted(MPI_COMM_SELF))
         std::raise(SIGTERM); // on the first mesh
       return road(z);
     };

@@ -34,7 +34,7 @@ const std::vector<PaperScene>& paper_scenes() {
 }
 
 Discretisation::Discretisation(const Scene& scene, const Parameters& parameters)
-    : triangulation(make_ring_mesh(scene, parameters)),
+    : triangulation(make_ring_mesh(scene, parameters, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree) {}
 
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road) {

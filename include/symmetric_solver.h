@@ -1,0 +1,36 @@
+#ifndef ROLLWAVE_SYMMETRIC_SOLVER_H
+#define ROLLWAVE_SYMMETRIC_SOLVER_H
+
+#include "assembly.h"
+#include "parameters.h"
+#include "work.h"
+
+#include <memory>
+
+namespace rollwave {
+
+/// Hands the matrices of all cells of this process to its argument.
+using EachCellMatrix = std::function<void(const AddCellMatrix& add)>;
+
+/// Linear problems with one symmetric positive definite matrix on a space, for the degrees of
+/// freedom that constraints leave.
+class SymmetricSolver {
+public:
+  virtual ~SymmetricSolver() = default;
+
+  /// Takes the sum of all cell matrices. Later calls must have the same @p constraints but for
+  /// their inhomogeneities.
+  /// @throws NotEnoughMemory
+  virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
+                          const EachCellMatrix& each, Work& work) = 0;
+
+  /// The solution for @p rhs, which obeys homogeneous constraints, zero where a constraint holds.
+  virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
+};
+
+/// @p kind is direct or iterative.
+std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space);
+
+} // namespace rollwave
+
+#endif
