@@ -1,0 +1,195 @@
+// Many processes give the answer of one, and end together.
+#include "program.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace {
+
+/// The start of a command that runs on @p n processes, more than there are cores if need be.
+std::string on_processes(int n) {
+  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OPENBLAS_NUM_THREADS=1 "
+         "mpirun --oversubscribe -np " +
+         std::to_string(n) + " ";
+}
+
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(csv);
+  std::string line, field;
+  std::getline(lines, line); // the names
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    rows.emplace_back();
+    while (std::getline(fields, field, ','))
+      rows.back().push_back(std::stod(field));
+  }
+  return rows;
+}
+
+class Processes : public Program {
+protected:
+  std::set<std::string> files() const {
+    std::set<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(directory / "out"))
+      names.insert(entry.path().filename());
+    return names;
+  }
+
+  void expect_answer_of_one(const std::string& arguments, const std::vector<int>& counts) {
+    std::filesystem::remove_all(directory / "out");
+    const Outcome alone =
+        shell("$rollwave " + arguments + " --output '" + (directory / "out").string() + "'");
+    ASSERT_EQ(alone.exit_code, 0) << alone.text;
+    const auto expected = nlohmann::json::parse(read("summary.json"));
+    const auto expected_rows = rows_of(read("contact.csv"));
+    std::set<std::string> expected_files = files();
+    expected_files.erase("solution.vtu");
+    for (const int n : counts) {
+      SCOPED_TRACE(n);
+      std::filesystem::remove_all(directory / "out");
+      const Outcome many = shell(on_processes(n) + "$rollwave " + arguments + " --output '" +
+                                 (directory / "out").string() + "'");
+      ASSERT_EQ(many.exit_code, 0) << many.text;
+      EXPECT_EQ(many.text.find("Result"), many.text.rfind("Result")) << "told more than once";
+      const auto summary = nlohmann::json::parse(read("summary.json"));
+      for (const char* const figure : {"dofs", "cells", "contact_nodes"})
+        EXPECT_EQ(summary["mesh"][figure], expected["mesh"][figure]) << figure;
+      EXPECT_EQ(summary["iterations"]["contact"], expected["iterations"]["contact"]);
+      EXPECT_LT(summary["residuals"]["equilibrium"].get<double>(), 1e-10);
+      for (const auto& [section, figure] : {std::pair("contact", "force"),
+                                            {"contact", "peak_pressure"},
+                                            {"energy", "value"},
+                                            {"energy", "lower_bound"},
+                                            {"energy", "upper_bound"}}) {
+        const double value = expected[section][figure];
+        EXPECT_NEAR(summary[section][figure].get<double>(), value, 1e-10 * std::abs(value))
+            << figure;
+      }
+      const auto rows = rows_of(read("contact.csv"));
+      ASSERT_EQ(rows.size(), expected_rows.size());
+      for (unsigned int i = 0; i < rows.size(); ++i) {
+        EXPECT_NEAR(rows[i][0], expected_rows[i][0], 1e-14);              // z
+        EXPECT_EQ(rows[i][4] > 0, expected_rows[i][4] > 0) << rows[i][0]; // the active set
+      }
+      std::set<std::string> names = files();
+      for (int k = 0; k < n; ++k) {
+        const std::string piece = "solution." + std::to_string(k) + ".vtu";
+        EXPECT_EQ(names.erase(piece), 1u) << piece;
+        EXPECT_NE(read("solution.pvtu").find(piece), std::string::npos);
+      }
+      EXPECT_EQ(names.erase("solution.pvtu"), 1u);
+      EXPECT_EQ(names, expected_files);
+    }
+  }
+};
+
+class FigureOnProcesses : public Processes, public testing::WithParamInterface<int> {
+protected:
+  const std::string file = "'" ROLLWAVE_PRM_DIRECTORY "/figure-" + std::to_string(GetParam());
+};
+
+TEST_P(FigureOnProcesses, HasTheAnswerOfOne) {
+  expect_answer_of_one(file + ".prm' --set 'Mesh/Radial cells=6' --set 'Mesh/Angular cells=90'",
+                       {2, 5});
+}
+
+TEST_P(FigureOnProcesses, RefinesLikeOne) {
+  expect_answer_of_one(file + ".prm' --set 'Mesh/Radial cells=3' --set 'Mesh/Angular cells=38' "
+                              "--set 'Mesh/Wanted relative error=4e-3'",
+                       {3, 4});
+}
+
+INSTANTIATE_TEST_SUITE_P(Figures, FigureOnProcesses, testing::Values(4, 5, 6, 7, 8));
+
+// Most of them begin without a cell, and without a contact node for long.
+TEST_F(Processes, MayBeMoreThanCells) {
+  expect_answer_of_one(scene + " --set 'Mesh/Radial cells=1' --set 'Mesh/Angular cells=4' --set "
+                               "'Mesh/Adaptive cycles=7' --set 'Mesh/Degree=2'",
+                       {7, 13});
+}
+
+TEST_F(Processes, IterateLikeOneByUzawa) {
+  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-6'", {3});
+}
+
+// Thin and thick rings, an uneven force, refinement by the certificate.
+TEST_F(Processes, SolveOtherScenesLikeOne) {
+  expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.9' --set 'Road/Distance=0.95' "
+                               "--set 'Mesh/Wanted relative error=0.1'",
+                       {3});
+  expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.05' --set 'Cylinder/Radial "
+                               "force=0.1*cos(z)*r' --set 'Cylinder/Angular velocity=1' --set "
+                               "'Mesh/Wanted relative error=0.1' --set 'Mesh/Degree=2'",
+                       {3});
+}
+
+TEST_F(Processes, TellBadInputOnce) {
+  for (const char* const setting : {"Mesh/Degre=1", "Solver/Kind=direct"}) {
+    const Outcome outcome =
+        shell(on_processes(3) + "$rollwave " + scene + " --set '" + setting + "'");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.text.find("rollwave: --set"), std::string::npos) << outcome.text;
+    EXPECT_EQ(outcome.text.find("rollwave: --set"), outcome.text.rfind("rollwave: --set"));
+  }
+}
+
+TEST_F(Processes, EndTogetherWhenOneIsKilled) {
+  const std::string run = "$rollwave " + scene +
+                          " --set Mesh/Degree=2 --set \"Mesh/Radial cells=100\" --set "
+                          "\"Mesh/Angular cells=1000\"";
+  std::ofstream(directory / "rank.sh")
+      << "if [ $OMPI_COMM_WORLD_RANK = 1 ]; then " << run
+      << " & sleep 2; kill -9 $!; wait $!; kill -9 $$; fi\nexec " << run << '\n';
+  const Outcome outcome =
+      shell("timeout 60 " + on_processes(3) + "sh '" + (directory / "rank.sh").string() + "'");
+  EXPECT_NE(outcome.text.find("signal 9"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.exit_code, 124) << "still running";
+  EXPECT_FALSE(has("summary.json"));
+  EXPECT_FALSE(has("solution.pvtu"));
+}
+
+TEST_F(Processes, MakeAStudyLikeOne) {
+  const std::string study = scene + " --set 'Study/Vary=Mesh/Angular cells = 40 | 60' --set "
+                                    "'Study/True errors=true'";
+  const auto column = [&](const std::string& name) {
+    std::istringstream lines(read("study.csv"));
+    std::string line, field;
+    std::getline(lines, line);
+    std::istringstream names(line);
+    unsigned int number = 0;
+    while (std::getline(names, field, ',') && field != name)
+      ++number;
+    std::vector<double> values;
+    while (std::getline(lines, line)) {
+      std::istringstream fields(line);
+      for (unsigned int k = 0; k <= number; ++k)
+        std::getline(fields, field, ',');
+      values.push_back(std::stod(field));
+    }
+    return values;
+  };
+  const std::vector<std::string> names = {"dofs", "contact_steps", "force", "error_relative",
+                                          "certified_relative"};
+  const Outcome alone = shell("$rollwave " + study);
+  ASSERT_EQ(alone.exit_code, 0) << alone.text;
+  std::vector<std::vector<double>> expected;
+  for (const std::string& name : names)
+    expected.push_back(column(name));
+  std::filesystem::remove_all(directory / "out");
+  const Outcome many = shell(on_processes(2) + "$rollwave " + study);
+  ASSERT_EQ(many.exit_code, 0) << many.text;
+  EXPECT_EQ(many.text.find("run 1 of 2"), many.text.rfind("run 1 of 2"));
+  for (unsigned int k = 0; k < names.size(); ++k) {
+    const std::vector<double> values = column(names[k]);
+    ASSERT_EQ(values.size(), 2u);
+    for (unsigned int run = 0; run < 2; ++run)
+      EXPECT_NEAR(values[run], expected[k][run], 1e-8 * expected[k][run]) << names[k];
+  }
+}
+
+} // namespace
