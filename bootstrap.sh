@@ -16,7 +16,7 @@ TEXT
 }
 
 program_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
-  nlohmann-json3-dev gnuplot-nox openmpi-bin)
+  nlohmann-json3-dev gnuplot-nox openmpi-bin libhypre-dev)
 test_packages=(libgtest-dev python3-vtk9 clang libclang-rt-dev)
 
 install_missing() {

@@ -1,10 +1,10 @@
 #ifndef ROLLWAVE_MULTIGRID_SOLVER_H
 #define ROLLWAVE_MULTIGRID_SOLVER_H
 
+#include "algebraic_multigrid.h"
 #include "mpi_session.h"
 #include "symmetric_solver.h"
 
-#include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <functional>
@@ -12,17 +12,21 @@
 
 namespace rollwave {
 
-/// Conjugate gradients preconditioned by algebraic multigrid (Trilinos' ML), on any number of
-/// processes.
+/// Conjugate gradients preconditioned by an AlgebraicMultigrid, on any number of processes.
 class MultigridSolver : public SymmetricSolver {
 public:
   explicit MultigridSolver(const RingSpace& space) : space(space) {}
 
-  void set_matrix(const dealii::AffineConstraints<double>& constraints, const EachCellMatrix& each,
-                  Work& work) override;
+  void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+                  const EachCellMatrix& each, Work& work) override;
   FieldVector solve(const FieldVector& rhs, Work& work) override;
 
   const dealii::TrilinosWrappers::SparseMatrix& matrix() const { return stiffness; }
+
+  /// Calls @p visit with the column and the value of each entry of an own row.
+  void visit_row(
+      dealii::types::global_dof_index row,
+      const std::function<void(dealii::types::global_dof_index column, double value)>& visit) const;
 
   /// The matrix, whose entries may be changed; the preconditioner is made anew when it is needed.
   dealii::TrilinosWrappers::SparseMatrix& change_matrix();
@@ -40,12 +44,13 @@ private:
   double relative_residual(const FieldVector& u, const FieldVector& rhs, const Scale& scale) const;
   void iterate(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
                Work& work);
-  const dealii::TrilinosWrappers::PreconditionAMG& multigrid(Work& work);
+  const AlgebraicMultigrid& multigrid(Work& work);
 
   const RingSpace& space;
   MpiSession mpi;
   dealii::TrilinosWrappers::SparseMatrix stiffness;
-  std::optional<dealii::TrilinosWrappers::PreconditionAMG> preconditioner; ///< of the matrix
+  double threshold = 0; ///< of couplings that are strong for the preconditioner
+  std::optional<AlgebraicMultigrid> preconditioner; ///< of the matrix
 };
 
 } // namespace rollwave

@@ -117,6 +117,7 @@ struct Parameters {
     std::vector<std::optional<unsigned int>> published_steps;
     bool true_errors = false;
     bool continue_meshes = false;
+    unsigned int processes_per_scene = 0; ///< 0: all of them
     unsigned int reference_unknowns = 300000;
   } study;
 

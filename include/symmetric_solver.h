@@ -9,6 +9,8 @@
 
 namespace rollwave {
 
+struct Scene;
+
 /// Hands the matrices of all cells of this process to its argument.
 using EachCellMatrix = std::function<void(const AddCellMatrix& add)>;
 
@@ -18,10 +20,11 @@ class SymmetricSolver {
 public:
   virtual ~SymmetricSolver() = default;
 
-  /// Takes the sum of all cell matrices. Later calls must have the same @p constraints but for
-  /// their inhomogeneities.
+  /// Takes the sum of all cell matrices, those of int r (alpha d_z v d_z w + d_r v d_r w) dr dz or
+  /// of the dual form, in which couplings are as strong. Later calls must have the same @p
+  /// constraints but for their inhomogeneities.
   /// @throws NotEnoughMemory
-  virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
+  virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                           const EachCellMatrix& each, Work& work) = 0;
 
   /// The solution for @p rhs, which obeys homogeneous constraints, zero where a constraint holds.

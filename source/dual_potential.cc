@@ -100,7 +100,7 @@ void DualPotential::assemble_matrix(const Scene& scene, RadialShapesOfMesh& shap
                                     const AffineConstraints<double>& constraints, Work& work) {
   angular_velocity.reset(); // until the solver is ready
   solver->set_matrix(
-      constraints,
+      scene, constraints,
       [&](const AddCellMatrix& add) {
         FullMatrix<double> cell_matrix(numbering.size());
         std::vector<types::global_dof_index> dofs(numbering.size()), ordered(numbering.size());

@@ -29,8 +29,8 @@ void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVecto
   const Work::Phase phase(work, "assembly");
   angular_velocity.reset();
   system.set_matrix(
-      space.constraints(), [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); },
-      work);
+      scene, space.constraints(),
+      [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); }, work);
   pinned_dofs.clear();
   find_couplings();
   ++work.stiffness_assemblies;
@@ -38,28 +38,27 @@ void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVecto
 }
 
 void IterativeSolver::find_couplings() {
-  const auto& matrix = system.matrix();
   const IndexSet& owned = space.dof_handler().locally_owned_dofs();
   // A matrix is symmetric: the rows that contact nodes couple to are the columns of theirs, of
   // which each process knows some.
   std::vector<types::global_dof_index> coupled;
   for (const auto dof : contact_dofs)
     if (owned.is_element(dof))
-      for (auto entry = matrix.begin(dof); entry != matrix.end(dof); ++entry)
-        coupled.push_back(entry->column());
+      system.visit_row(dof, [&](auto column, double) { coupled.push_back(column); });
   IndexSet rows(contact_dofs.size());
   for (const auto& part : Utilities::MPI::all_gather(space.communicator(), coupled))
     rows.add_indices(part.begin(), part.end());
   rows.compress();
 
   couplings.clear();
-  DynamicSparsityPattern pattern(matrix.m(), matrix.n(), owned);
+  DynamicSparsityPattern pattern(contact_dofs.size(), contact_dofs.size(), owned);
   for (const auto row : rows& owned)
-    for (auto entry = matrix.begin(row); entry != matrix.end(row); ++entry)
-      if (contact_dofs.is_element(row) || contact_dofs.is_element(entry->column())) {
-        couplings.push_back({row, entry->column(), entry->value()});
-        pattern.add(row, entry->column());
+    system.visit_row(row, [&, row = row](auto column, double value) {
+      if (contact_dofs.is_element(row) || contact_dofs.is_element(column)) {
+        couplings.push_back({row, column, value});
+        pattern.add(row, column);
       }
+    });
   contact_matrix.reinit(owned, owned, pattern, space.communicator());
   for (const auto& [row, column, value] : couplings)
     contact_matrix.set(row, column, value);

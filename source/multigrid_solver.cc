@@ -3,12 +3,17 @@
 #include "errors.h"
 #include "memory.h"
 #include "processes.h"
+#include "scene.h"
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparsity_tools.h>
 
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -16,9 +21,30 @@ namespace rollwave {
 
 using namespace dealii;
 
-void MultigridSolver::set_matrix(const AffineConstraints<double>& constraints,
+namespace {
+
+/**
+ * Along an axis of stretched elements couplings are strong, and multigrid shall coarsen along that
+ * axis only. Where it is that of z, s = alpha (h_r / h_z)^2 >> 1, neighbours across the corner of
+ * linear elements couple half as strongly as those in z on the surface, and a quarter inside, which
+ * a threshold above a half leaves out. On other cells it would leave out too much.
+ */
+double strong_threshold(const RingSpace& space, const Scene& scene) {
+  double most = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+      most = std::max(most,
+                      scene.alpha(cell->center()[0]) *
+                          std::pow(cell->extent_in_direction(0) / cell->extent_in_direction(1), 2));
+  return Utilities::MPI::max(most, space.communicator()) > 10 ? 0.55 : 0.35;
+}
+
+} // namespace
+
+void MultigridSolver::set_matrix(const Scene& scene, const AffineConstraints<double>& constraints,
                                  const EachCellMatrix& each, Work& /*work*/) {
   preconditioner.reset();
+  threshold = strong_threshold(space, scene);
   const auto& handler = space.dof_handler();
   const IndexSet& owned = handler.locally_owned_dofs();
   const IndexSet& relevant = space.relevant_dofs();
@@ -37,6 +63,19 @@ void MultigridSolver::set_matrix(const AffineConstraints<double>& constraints,
   stiffness.compress(VectorOperation::add);
 }
 
+// Rather than by deal.II's iterators, which take a time for each row that grows with the matrix.
+void MultigridSolver::visit_row(
+    types::global_dof_index row,
+    const std::function<void(types::global_dof_index column, double value)>& visit) const {
+  const Epetra_CrsMatrix& matrix = stiffness.trilinos_matrix();
+  int n = 0;
+  double* values = nullptr;
+  int* local_columns = nullptr;
+  matrix.ExtractMyRowView(matrix.RowMap().LID(static_cast<int>(row)), n, values, local_columns);
+  for (int k = 0; k < n; ++k)
+    visit(matrix.ColMap().GID(local_columns[k]), values[k]);
+}
+
 TrilinosWrappers::SparseMatrix& MultigridSolver::change_matrix() {
   preconditioner.reset();
   return stiffness;
@@ -51,16 +90,12 @@ FieldVector MultigridSolver::solve(const FieldVector& rhs, Work& work) {
   return u;
 }
 
-const TrilinosWrappers::PreconditionAMG& MultigridSolver::multigrid(Work& work) {
+const AlgebraicMultigrid& MultigridSolver::multigrid(Work& work) {
   if (!preconditioner) {
     const Work::Phase phase(work, "preconditioner");
-    TrilinosWrappers::PreconditionAMG::AdditionalData settings;
-    settings.higher_order_elements = space.dof_handler().get_fe().degree > 1;
-    settings.aggregation_threshold = 0.05;
     // The hierarchy before and the assembly leave free memory in pieces.
     release_freed_memory();
-    preconditioner.emplace();
-    preconditioner->initialize(stiffness, settings);
+    preconditioner.emplace(stiffness, space.communicator(), threshold);
     ++work.preconditioners;
   }
   return *preconditioner;

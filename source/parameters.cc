@@ -234,6 +234,10 @@ void declare(Declarations& keys, Parameters& p) {
       "\"true\" or \"false\": whether an adaptive run that differs from the one before in "
       "road distance, speed or force only begins with its last mesh, coarsened where "
       "that has become too fine, rather than with the coarsest.");
+  keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
+                 "Under MPI with a number greater than 0, as many processes make a run and several "
+                 "runs are made at the same time; one process hands them out. 0: all processes "
+                 "make each run together.");
   keys.add_count("Reference unknowns", p.study.reference_unknowns, 1, most,
                  "The most unknowns of that finer solution.");
   keys.leave();

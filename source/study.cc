@@ -5,6 +5,7 @@
 #include "output.h"
 #include "processes.h"
 #include "simulation.h"
+#include "task_farm.h"
 #include "true_errors.h"
 #include "verification.h"
 
@@ -188,7 +189,15 @@ private:
   Solution solution;
 };
 
-std::string parameters_text(const Parameters& parameters) {
+/// All parameters but how many processes make a run, which a study can be gone on with in another
+/// number.
+std::string parameters_text(Parameters parameters) {
+  auto& settings = parameters.settings;
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                [](const Setting& setting) {
+                                  return setting.path() == "Study/Processes per scene";
+                                }),
+                 settings.end());
   std::ostringstream text;
   write_parameters(text, parameters);
   return text.str();
@@ -228,23 +237,51 @@ std::vector<StudyRun> runs_to_keep(std::vector<StudyRun> finished, const std::ve
   return finished;
 }
 
-/// Solves the scene of @p parameters and fills in what @p run tells of it.
-/// @throws NotSolved; Interrupted also when there is a result that lacks something.
-void solve_run(Sweep& sweep, References& references, const Parameters& parameters, StudyRun& run) {
-  const Scene scene = make_scene(parameters);
-  Solution& solution = sweep.solve(scene, parameters);
-  Result& result = solution.result;
-  if (result.is_interrupted)
-    throw Interrupted(result.shortfall);
-  if (parameters.study.true_errors) {
-    const Reference& reference = references.find(scene, parameters);
-    result.errors = measure_true_errors(*solution.space, solution.displacement, result,
-                                        solution.certificate, reference);
-    run.reference = reference.name;
+/// What runs that are made one after the other on the same processes share.
+class Bench {
+public:
+  Bench(const std::vector<Plan>& plans, MPI_Comm communicator)
+      : sweep(communicator), references(communicator) {
+    for (const Plan& plan : plans)
+      sweep.announce(make_scene(plan.parameters), plan.parameters);
   }
-  run.figures = figures_of(to_lengths(result, scene.unit));
-  run.failure = result.shortfall;
-}
+
+  /// A run, with the reason where it cannot be solved.
+  /// @throws Interrupted also when there is a result that lacks something.
+  StudyRun make(const Plan& plan) {
+    StudyRun run;
+    try {
+      solve(plan.parameters, run);
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const NotSolved& failure) {
+      run.failure = failure.what();
+    } catch (const std::bad_alloc&) {
+      run.failure = NotEnoughMemory().what();
+    }
+    return run;
+  }
+
+private:
+  void solve(const Parameters& parameters, StudyRun& run) {
+    const Scene scene = make_scene(parameters);
+    Solution& solution = sweep.solve(scene, parameters);
+    Result& result = solution.result;
+    if (result.is_interrupted)
+      throw Interrupted(result.shortfall);
+    if (parameters.study.true_errors) {
+      const Reference& reference = references.find(scene, parameters);
+      result.errors = measure_true_errors(*solution.space, solution.displacement, result,
+                                          solution.certificate, reference);
+      run.reference = reference.name;
+    }
+    run.figures = figures_of(to_lengths(result, scene.unit));
+    run.failure = result.shortfall;
+  }
+
+  Sweep sweep;
+  References references;
+};
 
 /// Writes study.csv, and parameters.prm where the directory has been removed.
 void write_runs(const Parameters& parameters, const std::filesystem::path& directory,
@@ -254,68 +291,163 @@ void write_runs(const Parameters& parameters, const std::filesystem::path& direc
   write_file(directory / "study.csv", study_csv(runs));
 }
 
+/// The rows of a study in their order, those of this call and of earlier ones.
+class Rows {
+public:
+  Rows(const Parameters& parameters, const std::vector<Plan>& plans,
+       const std::filesystem::path& directory, std::ostream& progress, bool writes)
+      : parameters(parameters), plans(plans), directory(directory), progress(progress),
+        writes(writes) {}
+
+  void announce(const char* remark = "") const { announce(rows.size(), remark); }
+
+  void announce(std::size_t number, const char* remark = "") const {
+    const Plan& plan = plans[number];
+    progress << "run " << number + 1 << " of " << plans.size() << ':';
+    if (!plan.scene.empty())
+      progress << "  " << plan.scene;
+    for (const Setting& setting : plan.varied)
+      progress << "  " << setting.path() << " = " << setting.value;
+    progress << remark << std::endl;
+  }
+
+  /// Appends what has been found before.
+  void adopt(StudyRun run) {
+    const Plan& plan = plans[rows.size()];
+    run.scene = plan.scene;
+    run.settings = plan.varied;
+    if (!parameters.study.published_steps.empty())
+      run.published_steps = parameters.study.published_steps[rows.size()];
+    rows.push_back(std::move(run));
+  }
+
+  /// Appends a run that has been made, and brings study.csv up to date.
+  void add(StudyRun run) {
+    if (!run.failure.empty())
+      progress << "  not solved: " << run.failure << std::endl;
+    adopt(std::move(run));
+    if (writes)
+      write_runs(parameters, directory, rows);
+  }
+
+  std::size_t size() const { return rows.size(); }
+
+  /// The study as it is; where @p is_interrupted it lacks runs. @throws Interrupted without a row.
+  Study end(bool is_interrupted) && {
+    if (!is_interrupted)
+      return {std::move(rows), ""};
+    const std::string shortfall = "interrupted after " + std::to_string(rows.size()) + " of " +
+                                  std::to_string(plans.size()) +
+                                  " runs; the same command goes on with the others";
+    if (rows.empty())
+      throw Interrupted("interrupted before the first run was made");
+    return {std::move(rows), shortfall};
+  }
+
+private:
+  const Parameters& parameters;
+  const std::vector<Plan>& plans;
+  const std::filesystem::path& directory;
+  std::ostream& progress;
+  const bool writes;
+  std::vector<StudyRun> rows;
+};
+
+/// All processes make each run. False when the user has interrupted it.
+bool make_one_by_one(const std::vector<Plan>& plans, MPI_Comm communicator, Rows& rows) {
+  Bench bench(plans, communicator);
+  while (rows.size() < plans.size()) {
+    rows.announce();
+    try {
+      rows.add(bench.make(plans[rows.size()]));
+    } catch (const Interrupted&) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Groups of processes make runs at the same time, those together that continue a mesh. False when
+/// the user has interrupted it.
+bool make_in_groups(const std::vector<Plan>& plans, unsigned int group_size, MPI_Comm communicator,
+                    Rows& rows) {
+  struct Task {
+    std::size_t begin, end; ///< of its runs
+  };
+  std::vector<Task> tasks;
+  for (std::size_t i = rows.size(); i < plans.size(); ++i)
+    if (!tasks.empty() && continues_mesh(plans[i].parameters) &&
+        mesh_key(plans[i - 1].parameters) == mesh_key(plans[i].parameters))
+      tasks.back().end = i + 1;
+    else
+      tasks.push_back({i, i + 1});
+
+  // Rows are in the order of the study, whichever run is ready first.
+  std::map<std::size_t, StudyRun> made;
+  bool is_interrupted = false;
+  const Foreman foreman = {[&](unsigned int task) {
+                             for (std::size_t i = tasks[task].begin; i < tasks[task].end; ++i)
+                               rows.announce(i);
+                           },
+                           [&](unsigned int task, const std::string& csv) {
+                             auto runs = read_study_csv(csv);
+                             is_interrupted = is_interrupted ||
+                                              runs.size() < tasks[task].end - tasks[task].begin;
+                             for (std::size_t k = 0; k < runs.size(); ++k)
+                               made[tasks[task].begin + k] = std::move(runs[k]);
+                             for (auto next = made.find(rows.size()); next != made.end();
+                                  next = made.find(rows.size())) {
+                               rows.add(std::move(next->second));
+                               made.erase(next);
+                             }
+                             return !is_interrupted;
+                           }};
+  std::optional<Bench> bench;
+  farm_out(communicator, group_size, tasks.size(), foreman, [&](unsigned int task, MPI_Comm group) {
+    if (!bench)
+      bench.emplace(plans, group);
+    std::vector<StudyRun> runs;
+    try {
+      for (std::size_t i = tasks[task].begin; i < tasks[task].end; ++i)
+        runs.push_back(bench->make(plans[i]));
+    } catch (const Interrupted&) {
+      // a result that is too short tells
+    }
+    return study_csv(runs);
+  });
+  return !is_interrupted;
+}
+
 } // namespace
 
 Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
                 std::ostream& progress, MPI_Comm communicator) {
-  const bool is_first = process_number(communicator) == 0;
   const std::vector<Plan> plans = make_plans(parameters);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())
     throw BadInput(refusal(parameters.settings, "Study", "Published steps",
                            "there are " + std::to_string(published.size()) + " entries for " +
                                std::to_string(plans.size()) + " runs"));
-  Sweep sweep(communicator);
+  const unsigned int group_size = parameters.study.processes_per_scene;
+  const bool is_farmed = group_size > 0 && !is_alone(communicator);
+  if (is_farmed && group_size >= count_processes(communicator))
+    throw BadInput(refusal(parameters.settings, "Study", "Processes per scene",
+                           "one process hands out the scenes, so that there must be more than "
+                           "these"));
   for (const Plan& plan : plans)
-    sweep.announce(make_scene(plan.parameters), plan.parameters);
+    make_scene(plan.parameters);
 
+  const bool is_first = process_number(communicator) == 0;
   const std::string earlier =
       share_text(communicator, is_first ? claim_directory(parameters, directory) : std::string());
-  const auto finished = runs_to_keep(read_study_csv(earlier), plans);
-  Study study;
-  auto& runs = study.runs;
-  References references(communicator);
-  for (const Plan& plan : plans) {
-    StudyRun run;
-    run.scene = plan.scene;
-    run.settings = plan.varied;
-    if (!published.empty())
-      run.published_steps = published[runs.size()];
-    progress << "run " << runs.size() + 1 << " of " << plans.size() << ':';
-    if (!plan.scene.empty())
-      progress << "  " << plan.scene;
-    for (const Setting& setting : plan.varied)
-      progress << "  " << setting.path() << " = " << setting.value;
-    if (runs.size() < finished.size()) {
-      progress << "  (done before)" << std::endl;
-      run.figures = finished[runs.size()].figures;
-      run.reference = finished[runs.size()].reference;
-      run.failure = finished[runs.size()].failure;
-      runs.push_back(std::move(run));
-      continue;
-    }
-    progress << std::endl;
-    try {
-      solve_run(sweep, references, plan.parameters, run);
-    } catch (const Interrupted& interruption) {
-      if (runs.empty())
-        throw;
-      study.shortfall = "interrupted after " + std::to_string(runs.size()) + " of " +
-                        std::to_string(plans.size()) +
-                        " runs; the same command goes on with the others";
-      return study;
-    } catch (const NotSolved& failure) {
-      run.failure = failure.what();
-    } catch (const std::bad_alloc&) {
-      run.failure = NotEnoughMemory().what();
-    }
-    if (!run.failure.empty())
-      progress << "  not solved: " << run.failure << std::endl;
-    runs.push_back(std::move(run));
-    if (is_first)
-      write_runs(parameters, directory, runs);
+  Rows rows(parameters, plans, directory, progress, is_first);
+  for (StudyRun& run : runs_to_keep(read_study_csv(earlier), plans)) {
+    rows.announce("  (done before)");
+    rows.adopt(std::move(run));
   }
-  return study;
+  const bool is_complete = is_farmed ? make_in_groups(plans, group_size, communicator, rows)
+                                     : make_one_by_one(plans, communicator, rows);
+  return std::move(rows).end(!is_complete);
 }
 
 } // namespace rollwave

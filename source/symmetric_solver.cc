@@ -19,8 +19,8 @@ class CholeskySolver : public SymmetricSolver {
 public:
   explicit CholeskySolver(const RingSpace& space) : space(space) {}
 
-  void set_matrix(const AffineConstraints<double>& constraints, const EachCellMatrix& each,
-                  Work& work) override {
+  void set_matrix(const Scene& /*scene*/, const AffineConstraints<double>& constraints,
+                  const EachCellMatrix& each, Work& work) override {
     if (!cholesky) {
       unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
       int n_unknowns = 0;

@@ -1,0 +1,138 @@
+#include "algebraic_multigrid.h"
+
+#include "errors.h"
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_parcsr_ls.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// hypre's objects for a vector.
+struct HypreVector {
+  HYPRE_IJVector handle;
+  HYPRE_ParVector vector;
+
+  HypreVector(MPI_Comm communicator, HYPRE_BigInt first, HYPRE_BigInt last) {
+    HYPRE_IJVectorCreate(communicator, first, last, &handle);
+    HYPRE_IJVectorSetObjectType(handle, HYPRE_PARCSR);
+    HYPRE_IJVectorInitialize(handle);
+    HYPRE_IJVectorAssemble(handle);
+    HYPRE_IJVectorGetObject(handle, reinterpret_cast<void**>(&vector));
+  }
+  ~HypreVector() { HYPRE_IJVectorDestroy(handle); }
+  HypreVector(const HypreVector&) = delete;
+  HypreVector& operator=(const HypreVector&) = delete;
+};
+
+/// The number of the first own row: where the processes before have none, it is not in the map.
+HYPRE_BigInt first_row(HYPRE_Int n_rows, MPI_Comm communicator) {
+  HYPRE_BigInt rows = n_rows, rows_before = 0;
+  MPI_Exscan(&rows, &rows_before, 1, HYPRE_MPI_BIG_INT, MPI_SUM, communicator);
+  return rows_before;
+}
+
+} // namespace
+
+struct AlgebraicMultigrid::Hypre {
+  const HYPRE_Int n_rows;
+  const HYPRE_BigInt first;
+  std::vector<HYPRE_BigInt> rows;
+  HypreVector rhs, solution;
+  HYPRE_IJMatrix matrix;
+  HYPRE_ParCSRMatrix parallel_matrix;
+  HYPRE_Solver cycle;
+
+  Hypre(const Epetra_CrsMatrix& source, MPI_Comm communicator)
+      : n_rows(source.NumMyRows()), first(first_row(n_rows, communicator)), rows(n_rows),
+        rhs(communicator, first, first + n_rows - 1),
+        solution(communicator, first, first + n_rows - 1) {
+    std::iota(rows.begin(), rows.end(), first);
+    HYPRE_IJMatrixCreate(communicator, first, first + n_rows - 1, first, first + n_rows - 1,
+                         &matrix);
+    HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
+    std::vector<HYPRE_Int> sizes(n_rows);
+    for (HYPRE_Int i = 0; i < n_rows; ++i)
+      sizes[i] = source.NumMyEntries(i);
+    HYPRE_IJMatrixSetRowSizes(matrix, sizes.data());
+    HYPRE_IJMatrixInitialize(matrix);
+    std::vector<HYPRE_BigInt> columns;
+    for (HYPRE_Int i = 0; i < n_rows; ++i) {
+      int n = 0;
+      int* local_columns = nullptr;
+      double* values = nullptr;
+      source.ExtractMyRowView(i, n, values, local_columns);
+      columns.resize(n);
+      for (int k = 0; k < n; ++k)
+        columns[k] = source.ColMap().GID(local_columns[k]);
+      HYPRE_IJMatrixSetValues(matrix, 1, &sizes[i], &rows[i], columns.data(), values);
+    }
+    HYPRE_IJMatrixAssemble(matrix);
+    HYPRE_IJMatrixGetObject(matrix, reinterpret_cast<void**>(&parallel_matrix));
+    HYPRE_BoomerAMGCreate(&cycle);
+  }
+
+  ~Hypre() {
+    HYPRE_BoomerAMGDestroy(cycle);
+    HYPRE_IJMatrixDestroy(matrix);
+  }
+};
+
+AlgebraicMultigrid::AlgebraicMultigrid(const TrilinosWrappers::SparseMatrix& matrix,
+                                       MPI_Comm communicator, double threshold)
+    : hypre([&] {
+        static const int is_started = HYPRE_Init(); // once in a process
+        (void)is_started;
+        return std::make_unique<Hypre>(matrix.trilinos_matrix(), communicator);
+      }()) {
+  const auto cycle = hypre->cycle;
+  HYPRE_BoomerAMGSetPrintLevel(cycle, 0);
+  HYPRE_BoomerAMGSetMaxIter(cycle, 1);
+  HYPRE_BoomerAMGSetTol(cycle, 0);
+  constexpr int ruge_stueben = 3, classical = 0;
+  HYPRE_BoomerAMGSetCoarsenType(cycle, ruge_stueben);
+  HYPRE_BoomerAMGSetInterpType(cycle, classical);
+  HYPRE_BoomerAMGSetPMaxElmts(cycle, 0); // nothing cut off
+  HYPRE_BoomerAMGSetStrongThreshold(cycle, threshold);
+  HYPRE_BoomerAMGSetMaxRowSum(cycle, 1); // no row is left out as dominated by its diagonal
+  HYPRE_BoomerAMGSetRelaxOrder(cycle, 0);
+  constexpr int forward = 13, backward = 14, symmetric = 6; // Gauss-Seidel
+  constexpr int down = 1, up = 2, coarsest = 3;
+  HYPRE_BoomerAMGSetNumSweeps(cycle, 1);
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, forward, down);
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, backward, up);
+  // Where coarsening ends early, the coarsest level is too large for elimination.
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, symmetric, coarsest);
+  HYPRE_BoomerAMGSetCycleNumSweeps(cycle, 4, coarsest);
+  HYPRE_BoomerAMGSetup(cycle, hypre->parallel_matrix, hypre->rhs.vector, hypre->solution.vector);
+  if (const int error = HYPRE_GetError()) {
+    HYPRE_ClearAllErrors();
+    throw NotSolved("the multigrid hierarchy could not be made, hypre's error " +
+                    std::to_string(error));
+  }
+}
+
+AlgebraicMultigrid::~AlgebraicMultigrid() = default;
+
+void AlgebraicMultigrid::vmult(FieldVector& u, const FieldVector& rhs) const {
+  u = 0;
+  const auto& rows = hypre->rows;
+  HYPRE_IJVectorSetValues(hypre->rhs.handle, hypre->n_rows, rows.data(), rhs.begin());
+  HYPRE_IJVectorSetValues(hypre->solution.handle, hypre->n_rows, rows.data(), u.begin());
+  HYPRE_BoomerAMGSolve(hypre->cycle, hypre->parallel_matrix, hypre->rhs.vector,
+                       hypre->solution.vector);
+  HYPRE_ClearAllErrors(); // one cycle does not reach the tolerance zero
+  HYPRE_IJVectorGetValues(hypre->solution.handle, hypre->n_rows, rows.data(), u.begin());
+}
+
+} // namespace rollwave
