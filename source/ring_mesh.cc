@@ -92,6 +92,23 @@ std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
   return radii;
 }
 
+/// Whether every second place lies in the middle of its neighbours, but for round-off.
+bool can_be_halved(const std::vector<double>& places) {
+  if (places.size() % 2 == 0)
+    return false;
+  for (std::size_t i = 1; i < places.size(); i += 2)
+    if (std::abs(2 * places[i] - places[i - 1] - places[i + 1]) >
+        1e-13 * (std::abs(places[i]) + places.back() - places.front()))
+      return false;
+  return true;
+}
+
+void drop_every_second(std::vector<double>& places) {
+  for (std::size_t i = 1; 2 * i < places.size(); ++i)
+    places[i] = places[2 * i];
+  places.resize((places.size() + 1) / 2);
+}
+
 /// All digits where they are exact.
 std::string count_text(double count) {
   std::ostringstream text;
@@ -117,14 +134,24 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
 
   constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
   auto triangulation = std::make_unique<Triangulation<2>>(smoothing);
-  const std::vector<double> radii =
-      radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
-  const std::vector<double> angles = angles_of(scene, parameters);
+  std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
+  std::vector<double> angles = angles_of(scene, parameters);
+  unsigned int refinements = mesh.global_refinements;
+  // p4est's coarse cells are known to every process and take far more time each than its refined
+  // ones: those that halve others become refined ones. Not on meshes that may be coarsened.
+  const bool is_fixed = mesh.wanted_relative_error == 0 && mesh.adaptive_cycles.value_or(0) == 0;
+  if (is_fixed && !is_alone(communicator))
+    while (can_be_halved(radii) && can_be_halved(angles) && angles.size() > 6) {
+      drop_every_second(radii);
+      drop_every_second(angles);
+      ++refinements;
+    }
+  const std::vector<unsigned int> n_cells = {static_cast<unsigned int>(radii.size() - 1),
+                                             static_cast<unsigned int>(angles.size() - 1)};
   // In units of cells first: heights may be far smaller than lengths in z, and places shall be
   // exact, those of the surface above all.
-  GridGenerator::subdivided_hyper_rectangle(
-      *triangulation, {mesh.radial_cells, mesh.angular_cells}, Point<2>(),
-      Point<2>(mesh.radial_cells, mesh.angular_cells), /*colorize=*/true);
+  GridGenerator::subdivided_hyper_rectangle(*triangulation, n_cells, Point<2>(),
+                                            Point<2>(n_cells[0], n_cells[1]), /*colorize=*/true);
   GridTools::transform(
       [&](const Point<2>& cells) {
         return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
@@ -142,9 +169,15 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
   GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
                                     seam);
   triangulation->add_periodicity(seam);
-  triangulation->refine_global(mesh.global_refinements);
-  if (auto* const distributed = dynamic_cast<Distributed*>(triangulation.get()))
-    distributed->repartition();
+  auto* const distributed = dynamic_cast<Distributed*>(triangulation.get());
+  for (unsigned int refinement = 0; refinement < refinements; ++refinement) {
+    triangulation->refine_global();
+    // From then on the shares of the processes are equal but for few cells, and stay so.
+    constexpr unsigned int cells_of_a_share = 4000;
+    if (distributed &&
+        distributed->n_global_active_cells() < cells_of_a_share * count_processes(communicator))
+      distributed->repartition();
+  }
   return triangulation;
 }
 

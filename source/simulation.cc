@@ -100,6 +100,35 @@ std::string residual_text(const Residuals& residuals) {
   return text.str();
 }
 
+/// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
+/// iterative kind a new preconditioner.
+bool begins_coarser(const Parameters& parameters, MPI_Comm communicator) {
+  const auto& mesh = parameters.mesh;
+  constexpr double least_unknowns = 1e5;
+  return (parameters.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
+         parameters.contact.method == ContactMethod::active_set &&
+         std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) * mesh.radial_cells *
+                 mesh.angular_cells >
+             least_unknowns;
+}
+
+/// The scene on a mesh with a sixteenth of the cells, for its pressure.
+Parameters coarser(Parameters parameters) {
+  auto& mesh = parameters.mesh;
+  for (int halving = 0; halving < 2; ++halving)
+    if (mesh.global_refinements > 0)
+      --mesh.global_refinements;
+    else {
+      mesh.radial_cells = (mesh.radial_cells + 1) / 2;
+      mesh.angular_cells = (mesh.angular_cells + 1) / 2;
+    }
+  mesh.adaptive_cycles = 0;
+  mesh.wanted_relative_error = 0;
+  parameters.certificate = {};
+  parameters.certificate.error_bound = false;
+  return parameters;
+}
+
 /// Which parts of the linear problems are kept when they have been used.
 enum class Keep { nothing, everything };
 
@@ -122,13 +151,17 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   solution.space = std::move(previous.space);
   solution.system = std::move(previous.system);
   const bool continues = solution.triangulation != nullptr;
+  // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
+  // solved before.
+  Result before = most_cycles > 0 ? std::move(previous.result) : Result();
   if (!continues) {
+    if (begins_coarser(parameters, communicator)) {
+      before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
+      solution.result.work = before.work;
+    }
     const Work::Phase phase(solution.result.work, "mesh");
     solution.triangulation = make_ring_mesh(scene, parameters, communicator);
   }
-  // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
-  // solved before.
-  const Result before = most_cycles > 0 ? std::move(previous.result) : Result();
   for (unsigned int cycle = 0;; ++cycle) {
     Result& result = solution.result;
     if (cycle > 0 || !continues) {

@@ -1,11 +1,12 @@
-// The iterative kind of solver gives the answer of the direct kind, and says what it took. ML
-// solves problems of fewer than 2000 unknowns directly, so that the meshes here have more.
+// The iterative kind of solver gives the answer of the direct kind, and says what it took.
 #include "iterative_solver.h"
 
 #include "active_set.h"
 #include "assembly.h"
 #include "errors.h"
 #include "mesh_solution.h"
+#include "multigrid_solver.h"
+#include "simulation.h"
 #include "solver_choice.h"
 #include "test_scenes.h"
 
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <tuple>
 
 using namespace rollwave;
 using dealii::Vector;
@@ -257,5 +259,64 @@ TEST(SolverChoice, IsDirectWhereThatFits) {
   EXPECT_NE(dynamic_cast<const DirectSolver*>(choice.solver.get()), nullptr);
   EXPECT_EQ(choice.remark, "");
 }
+
+/// The iterations to 1e-10 from zero for a random right-hand side, which has all angular modes, on
+/// the mesh of @p settings, refined where it says, with the nodes pinned that are in contact.
+unsigned int count_iterations(const std::vector<std::string>& settings) {
+  const Parameters parameters = parameters_of(settings);
+  const Scene scene = make_scene(parameters);
+  const Solution solution = simulate(scene, parameters);
+  const RingSpace& space = *solution.space;
+  dealii::AffineConstraints<double> constraints;
+  constraints.copy_from(space.constraints());
+  for (unsigned int i = 0; i < space.contact_nodes().size(); ++i)
+    if (solution.result.contact_rows[i].pressure > 0)
+      constraints.add_line(space.contact_nodes()[i].dof);
+  constraints.close();
+
+  Work work;
+  MultigridSolver solver(space);
+  solver.set_matrix(
+      scene, constraints, [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); },
+      work);
+  FieldVector rhs = space.make_field(), u = space.make_field();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (double& entry : rhs)
+    entry = value(random);
+  constraints.set_zero(rhs);
+  const double size = rhs.l2_norm();
+  EXPECT_LE(solver.improve(
+                u, rhs, [size](const FieldVector&) { return size; }, 1e-10, work),
+            1e-10);
+  return work.linear_iterations;
+}
+
+class Multigrid : public testing::TestWithParam<std::tuple<double, int, std::vector<std::string>>> {
+};
+
+TEST_P(Multigrid, NeedsFewIterationsAtAnySpeedAndOnAnyMesh) {
+  auto [speed, degree, settings] = GetParam();
+  settings.push_back("Cylinder/Angular velocity=" + std::to_string(speed));
+  settings.push_back("Mesh/Degree=" + std::to_string(degree));
+  EXPECT_LE(count_iterations(settings), speed < 1 ? 25u : 40u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    SpeedsAndMeshes, Multigrid,
+    testing::Combine(
+        testing::Values(0., 0.5, 0.9, 1.), testing::Values(1, 2),
+        testing::Values(
+            std::vector<std::string>{"Mesh/Radial cells=10", "Mesh/Angular cells=126"},
+            std::vector<std::string>{"Mesh/Radial cells=40", "Mesh/Angular cells=504"},
+            std::vector<std::string>{"Mesh/Radial cells=80", "Mesh/Angular cells=100"},
+            std::vector<std::string>{"Mesh/Radial cells=8", "Mesh/Angular cells=1000"},
+            std::vector<std::string>{"Cylinder/Inner radius=0.99", "Road/Distance=0.995",
+                                     "Mesh/Radial cells=3", "Mesh/Angular cells=2000"},
+            std::vector<std::string>{"Cylinder/Inner radius=0.01", "Mesh/Radial cells=40",
+                                     "Mesh/Angular cells=250"},
+            std::vector<std::string>{"Mesh/Radial cells=3", "Mesh/Angular cells=38",
+                                     "Mesh/Adaptive cycles=100", "Mesh/Indicator=residual",
+                                     "Mesh/Most unknowns=20000"})));
 
 } // namespace
