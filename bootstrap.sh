@@ -9,6 +9,7 @@ Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: prm/figur
        ./bootstrap.sh test [OPTIONS of ctest]
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
+       ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
 
 Each installs the Debian packages that are missing, builds in ./build (sanitize: ./build-sanitize),
 and runs.
@@ -71,6 +72,11 @@ benchmark)
   build all build -DBUILD_TESTING=ON
   build/tests/rollwave_benchmark
   exec build/tests/rollwave_phases
+  ;;
+scaling)
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build rollwave build
+  exec python3 tests/scaling.py build/rollwave prm/figure-4.prm "${2:-2}"
   ;;
 *)
   usage >&2

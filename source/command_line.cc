@@ -9,6 +9,7 @@ std::string usage() {
 
 Usage:
   rollwave [--verify] FILE.prm [--output DIR] [--set "Section/Key=value"]...
+  mpirun -np N rollwave ...   the same on N processes
   rollwave --parameters   print a complete commented parameter file
   rollwave --help         print this text
   rollwave --version      print the versions of Rollwave and deal.II
