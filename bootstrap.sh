@@ -71,6 +71,7 @@ benchmark)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
   build all build -DBUILD_TESTING=ON
   build/tests/rollwave_benchmark
+  build/tests/rollwave_multigrid
   exec build/tests/rollwave_phases
   ;;
 scaling)

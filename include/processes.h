@@ -47,6 +47,9 @@ unsigned int count_processes(MPI_Comm communicator);
 /// The number of this process among those of a communicator, from 0 on.
 unsigned int process_number(MPI_Comm communicator);
 
+/// The sum over those processes of a communicator that share this one's machine.
+double sum_on_machine(MPI_Comm communicator, double value);
+
 /// The text that the first process has, on all of them.
 std::string share_text(MPI_Comm communicator, const std::string& text);
 

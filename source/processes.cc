@@ -57,6 +57,16 @@ unsigned int process_number(MPI_Comm communicator) {
   return is_alone(communicator) ? 0 : Utilities::MPI::this_mpi_process(communicator);
 }
 
+double sum_on_machine(MPI_Comm communicator, double value) {
+  if (is_alone(communicator))
+    return value;
+  MPI_Comm machine;
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const double sum = Utilities::MPI::sum(value, machine);
+  MPI_Comm_free(&machine);
+  return sum;
+}
+
 std::string share_text(MPI_Comm communicator, const std::string& text) {
   return is_alone(communicator) ? text : Utilities::MPI::broadcast(communicator, text);
 }

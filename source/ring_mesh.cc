@@ -130,7 +130,8 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
                                "lower degree"));
 
   // What the cells alone occupy at least, whatever is solved on them.
-  require_memory(200. * unknowns / (mesh.degree * mesh.degree), "the mesh");
+  const double bytes = 200. * unknowns / (mesh.degree * mesh.degree);
+  require_memory(sum_on_machine(communicator, bytes / count_processes(communicator)), "the mesh");
 
   constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
   auto triangulation = std::make_unique<Triangulation<2>>(smoothing);
