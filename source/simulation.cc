@@ -154,11 +154,14 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
   // solved before.
   Result before = most_cycles > 0 ? std::move(previous.result) : Result();
-  if (!continues) {
-    if (begins_coarser(parameters, communicator)) {
+  if (before.contact_rows.empty() && begins_coarser(parameters, communicator))
+    try {
       before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
       solution.result.work = before.work;
+    } catch (const BadInput&) {
+      // Too coarse for this scene, such as for a short zone: then without a start.
     }
+  if (!continues) {
     const Work::Phase phase(solution.result.work, "mesh");
     solution.triangulation = make_ring_mesh(scene, parameters, communicator);
   }

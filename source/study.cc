@@ -435,7 +435,7 @@ Study run_study(const Parameters& parameters, const std::filesystem::path& direc
                            "one process hands out the scenes, so that there must be more than "
                            "these"));
   for (const Plan& plan : plans)
-    make_scene(plan.parameters);
+    make_scene(plan.parameters); // refuses before anything is written
 
   const bool is_first = process_number(communicator) == 0;
   const std::string earlier =

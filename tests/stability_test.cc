@@ -99,6 +99,18 @@ TEST(Stability, BiactiveContactIsSolved) {
   }
 }
 
+/// Force and bounds of the energy against the exact answer.
+void expect_exact_answer(const Parameters& parameters) {
+  const Scene scene = make_scene(parameters);
+  const Result result = simulate(scene, parameters).result;
+  const auto exact = find_exact_solution(scene, parameters);
+  ASSERT_TRUE(exact);
+  EXPECT_TRUE(result.shortfall.empty()) << result.shortfall;
+  EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
+  EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
+  EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
+}
+
 TEST(Stability, HairlineContactHasItsExactAnswer) {
   for (const double depth : {1e-4, 1e-9, 1e-14})
     for (const double speed : {0.5, 1.}) {
@@ -108,14 +120,7 @@ TEST(Stability, HairlineContactHasItsExactAnswer) {
       const Parameters parameters = parameters_of(
           {assignment("Road/Distance", 1 - depth), assignment("Cylinder/Angular velocity", speed),
            "Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Wanted relative error=0.03"});
-      const Scene scene = make_scene(parameters);
-      const Result result = simulate(scene, parameters).result;
-      const auto exact = find_exact_solution(scene, parameters);
-      ASSERT_TRUE(exact);
-      EXPECT_TRUE(result.shortfall.empty()) << result.shortfall;
-      EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
-      EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
-      EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
+      expect_exact_answer(parameters);
     }
 }
 
@@ -127,14 +132,7 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
         {assignment("Cylinder/Inner radius", inner), assignment("Road/Distance", distance),
          inner > 0.5 ? "Mesh/Radial cells=2" : "Mesh/Radial cells=12", "Mesh/Angular cells=120",
          "Mesh/Wanted relative error=0.03", "Mesh/Most unknowns=100000"});
-    const Scene scene = make_scene(parameters);
-    const Result result = simulate(scene, parameters).result;
-    const auto exact = find_exact_solution(scene, parameters);
-    ASSERT_TRUE(exact);
-    EXPECT_TRUE(result.shortfall.empty()) << result.shortfall;
-    EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
-    EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
-    EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
+    expect_exact_answer(parameters);
   }
 }
 
