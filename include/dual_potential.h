@@ -16,7 +16,7 @@ struct Scene;
 class Work;
 
 /// A contact pressure on one edge, linear in the coordinate t from 0 at its begin to 1 at its end:
-/// lambda(t) = mean + slope (t - 1/2).
+/// lambda(t) = mean + slope (t - 1/2) >= 0.
 struct EdgePressure {
   double mean;
   double slope;

@@ -35,12 +35,8 @@ enum class SolverKind {
 };
 
 enum class Indicator {
-  /// "auto": "certificate" when the error bound is wanted anyhow, else "residual".
-  automatic,
-  /// "residual": the residual indicator; costs a small part of a solve.
+  /// "residual": the residual indicator.
   residual,
-  /// "certificate": the contributions of the cells to the error bound; costs a solve.
-  certificate,
   /// "kelly": jumps of the normal derivative, deal.II's KellyErrorEstimator; for comparison.
   kelly
 };
@@ -80,7 +76,7 @@ struct Parameters {
     unsigned int global_refinements = 0;
     std::optional<unsigned int> adaptive_cycles; ///< nullopt: as many as the wanted error needs
     double wanted_relative_error = 0;            ///< 0: none
-    Indicator indicator = Indicator::automatic;
+    Indicator indicator = Indicator::residual;
     Marking marking = Marking::bulk;
     double marked_fraction = 0.6;
     unsigned int most_unknowns = 5000000;

@@ -1,5 +1,6 @@
 #include "certificate.h"
 
+#include "angular_bubbles.h"
 #include "contact_free.h"
 #include "mesh_system.h"
 #include "scene.h"
@@ -51,14 +52,21 @@ struct AngularShapes {
   double t;
   std::vector<double> value;
   std::vector<double> derivative; ///< d/dt
+  double bubble;                  ///< of AngularBubbles: beta
+  double mode;                    ///< P
 
-  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t) : t(t) {
+  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
+                const Polynomials::Polynomial<double>& beta, double t)
+      : t(t) {
     std::vector<double> both(2);
     for (const auto& shape : lagrange) {
       shape.value(t, both);
       value.push_back(both[0]);
       derivative.push_back(both[1]);
     }
+    beta.value(t, both);
+    bubble = both[0];
+    mode = both[1];
   }
 };
 
@@ -129,11 +137,15 @@ struct LineIntegrals {
 class Integrator {
 public:
   Integrator(const RingSpace& space, const Scene& scene, const FieldVector& displacement,
-             const FieldVector& potential, RadialShapesOfMesh& shapes, ForceColumns* columns)
-      : scene(scene), displacement(displacement), potential(potential), shapes(shapes),
-        columns(columns), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+             const FieldVector& potential, const AngularBubbles& bubbles,
+             RadialShapesOfMesh& shapes, ForceColumns* columns)
+      : scene(scene), displacement(displacement), potential(potential), bubbles(bubbles),
+        shapes(shapes), columns(columns),
+        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()), n(element.degree + 1),
-        lagrange(lobatto_lagrange(element.degree)), dofs(n * n), u(n * n), psi(n * n) {}
+        lagrange(lobatto_lagrange(element.degree)),
+        beta(AngularBubbles::mode(element.degree).primitive()), dofs(n * n), ordered(n * n),
+        u(n * n), psi(n * n), g(n) {}
 
   void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
     low = cell->vertex(0);
@@ -141,9 +153,11 @@ public:
     radial = &shapes.on(low[0], high[0]);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
-      u[i] = displacement(dofs[numbering[i]]);
-      psi[i] = potential(dofs[numbering[i]]);
+      ordered[i] = dofs[numbering[i]];
+      u[i] = displacement(ordered[i]);
+      psi[i] = potential(ordered[i]);
     }
+    bubbles.values(ordered, g);
   }
 
   /// On one line, with the correction c of v on the surface.
@@ -161,7 +175,8 @@ public:
         line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
       line_u_z[i] /= length;
-      line_psi_z[i] /= length;
+      line_psi[i] += length * angular.bubble * g[i];
+      line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
     }
     const double z = low[1] + angular.t * length;
     const double height = high[0] - low[0];
@@ -202,21 +217,26 @@ public:
     return sums;
   }
 
+  /// g on r = b.
+  double surface_bubble() const { return g.back(); }
   double angular_length() const { return high[1] - low[1]; }
-  const std::vector<Polynomials::Polynomial<double>>& angular_shapes() const { return lagrange; }
+  AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
   const Scene& scene;
   const FieldVector& displacement;
   const FieldVector& potential;
+  const AngularBubbles& bubbles;
   RadialShapesOfMesh& shapes;
   ForceColumns* columns;
   const FE_Q<2>& element;
   const std::vector<unsigned int> numbering;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
-  std::vector<types::global_dof_index> dofs;
-  std::vector<double> u, psi; ///< nodal values on the cell, the radial index running fastest
+  const Polynomials::Polynomial<double> beta;
+  std::vector<types::global_dof_index> dofs, ordered; ///< the radial index running fastest
+  std::vector<double> u, psi;                         ///< values at the ordered ones
+  std::vector<double> g;                              ///< of the bubbles
   Point<2> low, high;
   const RadialShapes* radial = nullptr;
 };
@@ -244,13 +264,13 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
       dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
-  Integrator integrator(space, scene, displacement, potential, shapes,
+  const AngularBubbles bubbles(space, scene, shapes, potential, pressures,
+                               columns ? &*columns : nullptr);
+  Integrator integrator(space, scene, displacement, potential, bubbles, shapes,
                         columns ? &*columns : nullptr);
-  // Off the surface everything but an uneven force is a polynomial of degree 2 p in z.
-  const QGauss<1> inside(columns && !columns->are_exact() ? degree + 2 : degree + 1);
   std::vector<AngularShapes> lines;
-  for (const auto& point : inside.get_points())
-    lines.emplace_back(integrator.angular_shapes(), point[0]);
+  for (const auto& point : gauss.get_points())
+    lines.push_back(integrator.angular_shapes(point[0]));
   std::vector<double> cell_bounds(triangulation.n_active_cells());
   LineIntegrals total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -262,8 +282,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     double contact_work = 0;
     const auto face = space.surface_face(cell);
     if (!face)
-      for (unsigned int p = 0; p < inside.size(); ++p)
-        sums.add(integrator.on_line(lines[p], {0, 0, 0}), inside.weight(p) * length);
+      for (unsigned int p = 0; p < gauss.size(); ++p)
+        sums.add(integrator.on_line(lines[p], {0, 0, 0}), gauss.weight(p) * length);
     else
       for (const auto& piece : trace.pieces(*face))
         for (unsigned int p = 0; p < gauss.size(); ++p) {
@@ -271,8 +291,11 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
           const double t = piece.t_begin + piece_length * gauss.point(p)[0];
           const double weight = gauss.weight(p) * piece_length * length;
           const auto correction = trace.correction(*face, piece, t);
-          sums.add(integrator.on_line({integrator.angular_shapes(), t}, correction), weight);
-          contact_work += weight * scene.outer_radius * pressures[*face](t) * correction.gap;
+          const AngularShapes angular = integrator.angular_shapes(t);
+          const double pressure =
+              pressures[*face](t) + integrator.surface_bubble() / scene.outer_radius * angular.mode;
+          sums.add(integrator.on_line(angular, correction), weight);
+          contact_work += weight * scene.outer_radius * pressure * correction.gap;
         }
     sums.bound_squared += 2 * contact_work;
     cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(0., sums.bound_squared));

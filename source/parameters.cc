@@ -138,14 +138,9 @@ void declare(Declarations& keys, Parameters& p) {
                   "is no larger than this number, from 0 to 1; 0 for no such wish.");
   keys.add_choice<Indicator>(
       "Indicator", p.mesh.indicator,
-      {{"auto", Indicator::automatic},
-       {"residual", Indicator::residual},
-       {"certificate", Indicator::certificate},
-       {"kelly", Indicator::kelly}},
-      "What tells where to refine. \"residual\": residuals and contact conditions on each cell, "
-      "cheap. \"certificate\": the cells' parts of the error bound, for the smallest bound; costs "
-      "a second linear solve in each cycle. \"kelly\": jumps of the normal derivative, for "
-      "comparison. \"auto\": \"certificate\" with Certificate/Error bound, else \"residual\".");
+      {{"residual", Indicator::residual}, {"kelly", Indicator::kelly}},
+      "What tells where to refine. \"residual\": residuals and contact conditions on each cell. "
+      "\"kelly\": jumps of the normal derivative, for comparison.");
   keys.add_choice<Marking>(
       "Marking", p.mesh.marking,
       {{"bulk", Marking::bulk}, {"number", Marking::number}, {"all", Marking::all}},

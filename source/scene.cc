@@ -98,9 +98,6 @@ void check_certificate(const Parameters& parameters) {
   if (parameters.mesh.wanted_relative_error > 0)
     throw BadInput(refusal(parameters.settings, "Mesh", "Wanted relative error",
                            "it is judged by the certificate; set Certificate/Error bound = true"));
-  if (parameters.mesh.indicator == Indicator::certificate)
-    throw BadInput(refusal(parameters.settings, "Mesh", "Indicator",
-                           "it needs the certificate; set Certificate/Error bound = true"));
 }
 
 /// Keeps what is written to std::cerr while it lives: deal.II prints the parser's complaints there.

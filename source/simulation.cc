@@ -46,8 +46,6 @@ void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution&
 /// eta_K of each active cell.
 std::vector<double> indicate(Indicator indicator, const Scene& scene, const MeshSolution& on_mesh,
                              Solution& solution) {
-  if (indicator == Indicator::certificate)
-    return solution.certificate->cell_bounds;
   const Work::Phase phase(solution.result.work, "indicator");
   return indicator == Indicator::kelly ? kelly_indicator(*solution.space, on_mesh.displacement)
                                        : residual_indicator(*solution.space, scene, on_mesh.problem,
@@ -142,9 +140,6 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   const bool wants_error = mesh.wanted_relative_error > 0;
   const unsigned int most_cycles =
       mesh.adaptive_cycles.value_or(wants_error ? std::numeric_limits<unsigned int>::max() : 0);
-  Indicator indicator = mesh.indicator;
-  if (indicator == Indicator::automatic)
-    indicator = certifies ? Indicator::certificate : Indicator::residual;
 
   Solution solution;
   solution.triangulation = std::move(previous.triangulation);
@@ -183,14 +178,14 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
     measure(scene, *solution.space, on_mesh, result);
     if (!is_used_again)
       solution.system.stiffness = {};
-    if (certifies && (is_last || wants_error || indicator == Indicator::certificate))
+    if (certifies && (is_last || wants_error))
       certify_solution(scene, on_mesh, solution);
     const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
     const bool is_finished = is_reached || is_last;
     result.is_interrupted =
         !result.shortfall.empty() || (!is_finished && is_interrupted(communicator));
     if (!is_finished && !result.is_interrupted) {
-      const std::vector<double> indicators = indicate(indicator, scene, on_mesh, solution);
+      const std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
       if (refine(indicators, parameters, continues && cycle == 0, solution)) {
         double squared = 0;
         for (const double eta : indicators)

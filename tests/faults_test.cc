@@ -249,8 +249,8 @@ TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
               << " " << result.certified.has_value() << "]";
     std::exit(result.is_interrupted ? 2 : 0);
   };
-  EXPECT_EXIT(simulate_interrupted({"Mesh/Adaptive cycles=3", "Mesh/Indicator=residual"}),
-              testing::ExitedWithCode(2), "interrupted after 1 mesh \\[1 [2-9] 1\\]");
+  EXPECT_EXIT(simulate_interrupted({"Mesh/Adaptive cycles=3"}), testing::ExitedWithCode(2),
+              "interrupted after 1 mesh \\[1 [2-9] 1\\]");
   EXPECT_EXIT(simulate_interrupted({"Contact/Method=uzawa"}), testing::ExitedWithCode(2),
               "interrupted after 1 step of Uzawa's method: .*, wanted 1e-08 \\[1 1 1\\]");
   // Nothing is missing where the last mesh is solved.
@@ -456,6 +456,9 @@ TEST_F(Faults, GnuplotThatFailsCostsThePictureOnly) {
 }
 
 TEST_F(Faults, MemoryLimitEndsWithAMessage) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer takes terabytes of address space for itself";
+#endif
   ASSERT_EQ(run({"Mesh/Radial cells=30", "Mesh/Angular cells=1000"}).exit_code, 0);
   const auto undisturbed = files();
   std::map<int, unsigned int> outcomes;

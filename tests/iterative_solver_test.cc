@@ -89,9 +89,8 @@ TEST_P(IterativeKind, AgreesWithTheDirectKind) {
 }
 
 TEST_P(IterativeKind, AgreesWithTheDirectKindOnAnAdaptiveMesh) {
-  const Parameters own =
-      parameters({"Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Adaptive cycles=9",
-                  "Mesh/Indicator=residual", "Certificate/Error bound=false"});
+  const Parameters own = parameters({"Mesh/Radial cells=4", "Mesh/Angular cells=48",
+                                     "Mesh/Adaptive cycles=9", "Certificate/Error bound=false"});
   const Scene scene = make_scene(own);
   const Solution adaptive = simulate(scene, own);
   ASSERT_GT(adaptive.result.cycles.size(), 9u);
@@ -316,7 +315,6 @@ INSTANTIATE_TEST_SUITE_P(
             std::vector<std::string>{"Cylinder/Inner radius=0.01", "Mesh/Radial cells=40",
                                      "Mesh/Angular cells=250"},
             std::vector<std::string>{"Mesh/Radial cells=3", "Mesh/Angular cells=38",
-                                     "Mesh/Adaptive cycles=100", "Mesh/Indicator=residual",
-                                     "Mesh/Most unknowns=20000"})));
+                                     "Mesh/Adaptive cycles=100", "Mesh/Most unknowns=20000"})));
 
 } // namespace

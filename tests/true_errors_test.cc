@@ -84,9 +84,9 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
   for (const char* scene_key : {"Cylinder/Angular velocity=0", "Cylinder/Angular velocity=1",
                                 "Road/Contact zone=4.450589592585541, 4.974188368183839"})
     for (const int degree : {1, 2}) {
-      const Parameters parameters = parameters_of(
-          {scene_key, "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
-           "Mesh/Angular cells=24", "Mesh/Indicator=residual", "Mesh/Adaptive cycles=1000"});
+      const Parameters parameters =
+          parameters_of({scene_key, "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
+                         "Mesh/Angular cells=24", "Mesh/Adaptive cycles=1000"});
       const auto exact = find_exact_solution(make_scene(parameters), parameters);
       ASSERT_TRUE(exact);
       Reference reference = exact_reference(*exact);

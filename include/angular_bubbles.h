@@ -1,0 +1,51 @@
+#ifndef ROLLWAVE_ANGULAR_BUBBLES_H
+#define ROLLWAVE_ANGULAR_BUBBLES_H
+
+#include "dual_potential.h"
+
+#include <vector>
+
+namespace rollwave {
+
+/**
+ * What enriches a potential psi of degree p (DualPotential) by one degree in z, and the contact
+ * pressures lambda with it. On each cell
+ *
+ *     psi + h_z beta(t) g(r),   beta(t) = int_0^t P,   P the orthonormal Legendre polynomial of
+ *     degree p on [0, 1],   t = (z - begin) / h_z,   g a combination of PotentialShapes,
+ *
+ * so that psi_z gains the mode g(r) P(t), which r u_r of a displacement of degree p has and psi_z
+ * has not: without it the bound on cells that are long in z is several times the error. beta
+ * vanishes at both ends and at the nodes. g is continuous between cells of the same length, zero
+ * where their lengths differ, free on the hub, and b m on r = b, where the pressure becomes lambda
+ * + m P.
+ *
+ * g and m maximise D(tau) with psi as it is. A few steps of conjugate gradients, which begin at
+ * zero, come close enough, since any g leaves the flux in equilibrium; m is then limited to what
+ * leaves lambda + m P >= 0, and all is scaled by the factor that is best, so that D(tau) never
+ * falls.
+ */
+class AngularBubbles {
+public:
+  /// @param pressures one for each of RingSpace::surface_faces()
+  /// @param columns nullptr when there is no force
+  AngularBubbles(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
+                 const FieldVector& potential, const std::vector<EdgePressure>& pressures,
+                 ForceColumns* columns);
+
+  /// g at the radial Gauss-Lobatto points of a cell with the degrees of freedom @p dofs, the radial
+  /// index running fastest.
+  void values(const std::vector<dealii::types::global_dof_index>& dofs,
+              std::vector<double>& g) const;
+
+  /// P for elements of a degree.
+  static dealii::Polynomials::Polynomial<double> mode(unsigned int degree);
+
+private:
+  unsigned int n;    ///< degree + 1
+  FieldVector field; ///< g, at the first node of each cell's angular nodes that only it has
+};
+
+} // namespace rollwave
+
+#endif
