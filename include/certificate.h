@@ -36,8 +36,9 @@ struct MeshSystem;
  * gives a(v - u, v - u)^(1/2) <= C delta + (C^2 delta^2 + eta^2)^(1/2), and the bounds of J open
  * accordingly.
  *
- * All integrals are taken by Gauss' rules with at least degree + 2 points on each cell: the bound
- * assumes that these resolve phi, and that ||f - f_h|| is seen by four times as many points.
+ * All integrals are taken by Gauss' rules with at least degree + 2 points on each cell, those along
+ * the road with degree + 6: the bound assumes that these resolve phi, and that ||f - f_h|| is seen
+ * by four times as many points.
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds

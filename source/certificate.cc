@@ -248,7 +248,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
                     Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
-  const QGauss<1> gauss(degree + 2);
+  const QGauss<1> gauss(degree + 2), along_road(degree + 6);
   RadialShapesOfMesh shapes(scene, degree);
   std::optional<ForceColumns> columns;
   if (scene.force)
@@ -286,10 +286,10 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
         sums.add(integrator.on_line(lines[p], {0, 0, 0}), gauss.weight(p) * length);
     else
       for (const auto& piece : trace.pieces(*face))
-        for (unsigned int p = 0; p < gauss.size(); ++p) {
+        for (unsigned int p = 0; p < along_road.size(); ++p) {
           const double piece_length = piece.t_end - piece.t_begin;
-          const double t = piece.t_begin + piece_length * gauss.point(p)[0];
-          const double weight = gauss.weight(p) * piece_length * length;
+          const double t = piece.t_begin + piece_length * along_road.point(p)[0];
+          const double weight = along_road.weight(p) * piece_length * length;
           const auto correction = trace.correction(*face, piece, t);
           const AngularShapes angular = integrator.angular_shapes(t);
           const double pressure =

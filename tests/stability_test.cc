@@ -114,8 +114,8 @@ void expect_exact_answer(const Parameters& parameters) {
 TEST(Stability, HairlineContactHasItsExactAnswer) {
   for (const double depth : {1e-4, 1e-9, 1e-14})
     for (const double speed : {0.5, 1.}) {
-      if (speed == 1 && depth < 1e-4)
-        continue; // takes minutes
+      if (speed == 1 && depth < 1e-9)
+        continue; // rounding the displacement leaves residuals above the wanted ones
       SCOPED_TRACE(testing::Message() << depth << " deep at the speed " << speed);
       const Parameters parameters = parameters_of(
           {assignment("Road/Distance", 1 - depth), assignment("Cylinder/Angular velocity", speed),
@@ -131,7 +131,8 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
     const Parameters parameters = parameters_of(
         {assignment("Cylinder/Inner radius", inner), assignment("Road/Distance", distance),
          inner > 0.5 ? "Mesh/Radial cells=2" : "Mesh/Radial cells=12", "Mesh/Angular cells=120",
-         "Mesh/Wanted relative error=0.03", "Mesh/Most unknowns=100000"});
+         inner > 0.5 ? "Mesh/Wanted relative error=0.01" : "Mesh/Wanted relative error=0.03",
+         "Mesh/Most unknowns=100000"});
     expect_exact_answer(parameters);
   }
 }
