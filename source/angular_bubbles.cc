@@ -51,13 +51,17 @@ public:
       : scale(space.make_field()), bubble_square(bubble_square), scaled(scale),
         n(space.dof_handler().get_fe().degree + 1) {}
 
+  /// A cell.
   struct Part {
     const ShapeProducts* radial;
     double length;
-    std::array<unsigned int, 9> nodes; ///< places among a field's own and ghost values
   };
 
-  void add(const Part& part) { parts.push_back(part); }
+  /// @param places of the n values of g among a field's own and ghost values
+  void add(const Part& part, const std::vector<unsigned int>& places) {
+    parts.push_back(part);
+    nodes.insert(nodes.end(), places.begin(), places.end());
+  }
 
   double entry(const Part& part, unsigned int i, unsigned int k) const {
     return part.length * (part.length * part.length * bubble_square * part.radial->stiffness(i, k) +
@@ -68,13 +72,16 @@ public:
   void apply(FieldVector& result, const FieldVector& g) const {
     g.update_ghost_values();
     result = 0;
-    for (const Part& part : parts)
+    const unsigned int* places = nodes.data();
+    for (const Part& part : parts) {
       for (unsigned int i = 0; i < n; ++i) {
         double sum = 0;
         for (unsigned int k = 0; k < n; ++k)
-          sum += entry(part, i, k) * g.local_element(part.nodes[k]);
-        result.local_element(part.nodes[i]) += sum;
+          sum += entry(part, i, k) * g.local_element(places[k]);
+        result.local_element(places[i]) += sum;
       }
+      places += n;
+    }
     result.compress(VectorOperation::add);
     g.zero_out_ghost_values();
   }
@@ -94,6 +101,7 @@ private:
   mutable FieldVector scaled; ///< g with the scale, only while it is applied
   const unsigned int n;
   std::vector<Part> parts;
+  std::vector<unsigned int> nodes; ///< n of each part
 };
 
 } // namespace
@@ -127,6 +135,7 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
   FieldVector load = space.make_field(), diagonal = space.make_field();
   std::vector<types::global_dof_index> dofs(n * n);
   std::vector<double> psi_bubble(n);
+  std::vector<unsigned int> places(n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
@@ -134,15 +143,15 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
     const double length = high[1] - low[1];
     const RadialShapes& radial = shapes.on(low[0], high[0]);
     cell->get_dof_indices(dofs);
-    BubbleForm::Part part{&radial.products, length, {}};
+    const BubbleForm::Part part{&radial.products, length};
     std::array<double, 9> cell_load = {};
     for (unsigned int i = 0; i < n; ++i) {
       psi_bubble[i] = 0;
       for (unsigned int j = 0; j < n; ++j)
         psi_bubble[i] += bubble_of[j] * potential(dofs[numbering[i + n * j]]);
-      part.nodes[i] = partitioner.global_to_local(dofs[numbering[carrier(i, n)]]);
+      places[i] = partitioner.global_to_local(dofs[numbering[carrier(i, n)]]);
     }
-    form.add(part);
+    form.add(part, places);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)
         cell_load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
@@ -164,8 +173,8 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
     const bool is_free_below = cell->at_boundary(0) || has_equal_neighbour(cell, 0);
     const bool is_free_above = edge ? pressures[*edge].mean > 0 : has_equal_neighbour(cell, 1);
     for (unsigned int i = is_free_below ? 0 : 1; i < (is_free_above ? n : degree); ++i) {
-      load.local_element(part.nodes[i]) += cell_load[i];
-      diagonal.local_element(part.nodes[i]) += form.entry(part, i, i);
+      load.local_element(places[i]) += cell_load[i];
+      diagonal.local_element(places[i]) += form.entry(part, i, i);
     }
   }
   load.compress(VectorOperation::add);
@@ -174,10 +183,11 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
     if (diagonal.local_element(i) > 0)
       form.scale.local_element(i) = 1 / std::sqrt(diagonal.local_element(i));
 
-  FieldVector scaled_load = load;
+  FieldVector& scaled_load = diagonal;
+  scaled_load = load;
   scaled_load.scale(form.scale);
   // More steps gain little but in the flattest cells.
-  IterationNumberControl control(20, 1e-2 * scaled_load.l2_norm());
+  IterationNumberControl control(20, 0.1 * scaled_load.l2_norm());
   SolverCG<FieldVector>(control).solve(form, field, scaled_load, PreconditionIdentity());
   field.scale(form.scale);
 

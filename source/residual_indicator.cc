@@ -199,21 +199,36 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
 
     radial_mode = 0;
     angular_mode = 0;
-    for (unsigned int p = 0; p < n; ++p)
+    for (unsigned int p = 0; p < n; ++p) {
+      // Along the line z = const: u and its first two derivatives by z at the radial nodes
+      std::array<double, 9> line = {}, line_z = {}, line_zz = {};
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i) {
+          line[i] += inside.value[p][j] * u.nodal[i + n * j];
+          line_z[i] += inside.first[p][j] / h_z * u.nodal[i + n * j];
+          line_zz[i] += inside.second[p][j] / (h_z * h_z) * u.nodal[i + n * j];
+        }
+      const auto sum = [n](const std::array<double, 9>& radial,
+                           const std::array<double, 9>& on_line) {
+        double result = 0;
+        for (unsigned int i = 0; i < n; ++i)
+          result += radial[i] * on_line[i];
+        return result;
+      };
       for (unsigned int q = 0; q < n; ++q) {
         const double r = box.r0 + h_r * points[q][0];
-        const double u_r = u.sum(inside.first[q], inside.value[p]) / h_r;
+        const double u_r = sum(inside.first[q], line) / h_r;
         residual(p, q) = u_r;
         if (degree > 1)
-          residual(p, q) +=
-              r * (u.sum(inside.second[q], inside.value[p]) / (h_r * h_r) +
-                   scene.alpha(r) * u.sum(inside.value[q], inside.second[p]) / (h_z * h_z));
+          residual(p, q) += r * (sum(inside.second[q], line) / (h_r * h_r) +
+                                 scene.alpha(r) * sum(inside.value[q], line_zz));
         if (scene.force)
           residual(p, q) +=
               r * scene.force(r, std::fmod(box.z0 + h_z * points[p][0], 2 * numbers::PI));
         radial_mode(q) += highest_mode[p] * u_r;
-        angular_mode(p) += highest_mode[q] * u.sum(inside.value[q], inside.first[p]) / h_z;
+        angular_mode(p) += highest_mode[q] * sum(inside.value[q], line_z);
       }
+    }
     const double middle = (box.r0 + box.r1) / 2;
     double unbalanced = 0;
     for (unsigned int q = 0; q < n; ++q)
