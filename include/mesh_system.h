@@ -13,8 +13,7 @@ namespace rollwave {
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another
 /// scene at the cost of what differs; a part that is dropped is made again.
 struct MeshSystem {
-  SolverChoice stiffness;
-  SolverKind kind = SolverKind::direct; ///< of the stiffness, and so of the potential
+  SolverChoice stiffness; ///< its kind, which outlives the solver, is also the potential's
   std::unique_ptr<DualPotential> potential;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::string force;               ///< the text of the force that the load belongs to

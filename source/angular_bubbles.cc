@@ -164,14 +164,15 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
                             radial.weight[q] * radial.shapes[q][i].potential;
       }
     const auto edge = space.surface_face(cell);
-    if (edge) {
+    const bool has_pressure = edge && pressures[*edge].mean > 0;
+    if (has_pressure) {
       const SurfaceFace& face = space.surface_faces()[*edge];
       for (unsigned int p = 0; p < gauss.size(); ++p)
         cell_load[degree] -= length * weighted_mode[p] *
                              scene.road(face.begin + gauss.point(p)[0] * (face.end - face.begin));
     }
     const bool is_free_below = cell->at_boundary(0) || has_equal_neighbour(cell, 0);
-    const bool is_free_above = edge ? pressures[*edge].mean > 0 : has_equal_neighbour(cell, 1);
+    const bool is_free_above = edge ? has_pressure : has_equal_neighbour(cell, 1);
     for (unsigned int i = is_free_below ? 0 : 1; i < (is_free_above ? n : degree); ++i) {
       load.local_element(places[i]) += cell_load[i];
       diagonal.local_element(places[i]) += form.entry(part, i, i);

@@ -259,7 +259,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto pressures = edge_pressures(space, scene, problem, contact);
   auto& dual = system.potential;
   if (!dual)
-    dual = std::make_unique<DualPotential>(space, system.kind);
+    dual = std::make_unique<DualPotential>(space, system.stiffness.kind);
   const FieldVector potential =
       dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
 

@@ -110,13 +110,13 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     system.force = force;
     ++work.load_assemblies;
   }
-  auto& [solver, remark, kind] = system.stiffness;
+  auto& solver = system.stiffness.solver;
+  const std::string& remark = system.stiffness.remark;
   if (solver)
     solver->turn_to(scene, system.load, work);
   else
     system.stiffness =
         make_stiffness_solver(parameters.solver.kind, space, scene, system.load, work);
-  system.kind = kind;
   solution.problem = make_contact_problem(space, scene);
   {
     const Work::Phase phase(work, "contact");

@@ -177,7 +177,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
                       solution.system, result.work);
     measure(scene, *solution.space, on_mesh, result);
     if (!is_used_again)
-      solution.system.stiffness = {};
+      solution.system.stiffness.solver.reset();
     if (certifies && (is_last || wants_error))
       certify_solution(scene, on_mesh, solution);
     const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
