@@ -122,7 +122,7 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
   const QGauss<1> gauss(degree + 2);
   const auto& partitioner = *field.get_partitioner();
   double bubble_square = 0;
-  std::vector<double> bubble_of(n), weighted_mode(gauss.size()); // int beta L_j dt; P
+  std::vector<double> bubble_of(n), weighted_mode(gauss.size()); // int beta L_j dt; P at the points
   for (unsigned int q = 0; q < gauss.size(); ++q) {
     const double t = gauss.point(q)[0], weight = gauss.weight(q);
     weighted_mode[q] = weight * highest.value(t);
@@ -184,8 +184,7 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
     if (diagonal.local_element(i) > 0)
       form.scale.local_element(i) = 1 / std::sqrt(diagonal.local_element(i));
 
-  FieldVector& scaled_load = diagonal;
-  scaled_load = load;
+  FieldVector scaled_load = load;
   scaled_load.scale(form.scale);
   // More steps gain little but in the flattest cells.
   IterationNumberControl control(20, 0.1 * scaled_load.l2_norm());
@@ -205,8 +204,9 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
   field.zero_out_ghost_values();
   field -= excess;
 
-  form.apply(excess, field);
-  const double square = field * excess;
+  FieldVector product = space.make_field();
+  form.apply(product, field);
+  const double square = field * product;
   field *= square > 0 ? std::clamp(load * field / square, 0., 1.) : 0;
   field.update_ghost_values();
 }

@@ -278,12 +278,8 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
   solver.set_matrix(
       scene, constraints, [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); },
       work);
-  FieldVector rhs = space.make_field(), u = space.make_field();
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> value(-1, 1);
-  for (double& entry : rhs)
-    entry = value(random);
-  constraints.set_zero(rhs);
+  const FieldVector rhs = random_load(space, constraints);
+  FieldVector u = space.make_field();
   const double size = rhs.l2_norm();
   EXPECT_LE(solver.improve(
                 u, rhs, [size](const FieldVector&) { return size; }, 1e-10, work),

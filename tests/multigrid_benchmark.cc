@@ -9,7 +9,7 @@
 
 #include <cmath>
 #include <cstdio>
-#include <random>
+#include <utility>
 
 using namespace rollwave;
 
@@ -45,12 +45,8 @@ void benchmark(const char* mesh, double inner_radius, const std::pair<int, int>&
     solver.set_matrix(
         scene, constraints,
         [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); }, work);
-    FieldVector rhs = space.make_field(), u = space.make_field();
-    std::mt19937 random(3);
-    std::uniform_real_distribution<double> value(-1, 1);
-    for (double& entry : rhs)
-      entry = value(random);
-    constraints.set_zero(rhs);
+    const FieldVector rhs = random_load(space, constraints);
+    FieldVector u = space.make_field();
     const double size = rhs.l2_norm();
     dealii::Timer timer;
     solver.improve(

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <random>
+
 namespace rollwave {
 
 Parameters parameters_of(const std::vector<std::string>& assignments) {
@@ -36,6 +38,17 @@ const std::vector<PaperScene>& paper_scenes() {
 Discretisation::Discretisation(const Scene& scene, const Parameters& parameters)
     : triangulation(make_ring_mesh(scene, parameters, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree) {}
+
+FieldVector random_load(const RingSpace& space,
+                        const dealii::AffineConstraints<double>& constraints) {
+  FieldVector load = space.make_field();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> value(-1, 1);
+  for (double& entry : load)
+    entry = value(random);
+  constraints.set_zero(load);
+  return load;
+}
 
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road) {
   return {inner_radius,

@@ -42,6 +42,11 @@ struct Discretisation {
   RingSpace space;
 };
 
+/// A right-hand side between -1 and 1 at random, the same in each run, zero where @p constraints
+/// hold: no angular mode is missing from it.
+FieldVector random_load(const RingSpace& space,
+                        const dealii::AffineConstraints<double>& constraints);
+
 /// A scene that touches a constant obstacle phi around the whole circle.
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road);
 
