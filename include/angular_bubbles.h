@@ -20,10 +20,8 @@ namespace rollwave {
  * where their lengths differ, free on the hub, and b m on r = b, where the pressure becomes lambda
  * + m P.
  *
- * g and m maximise D(tau) with psi as it is. A few steps of conjugate gradients, which begin at
- * zero, come close enough, since any g leaves the flux in equilibrium; m is then limited to what
- * leaves lambda + m P >= 0, and all is scaled by the factor that is best, so that D(tau) never
- * falls.
+ * g and m maximise D(tau) with psi as it is and lambda + m P >= 0: a banded system for each
+ * column of cells of one length, and conjugate gradients where processes share a column.
  */
 class AngularBubbles {
 public:

@@ -22,8 +22,8 @@ namespace rollwave {
  */
 class DirectSolver : public StiffnessSolver {
 public:
-  /// For scenes on @p space whose road is nearest where that of @p scene is.
-  DirectSolver(const RingSpace& space, const Scene& scene);
+  /// For scenes whose roads are nearest at one place.
+  explicit DirectSolver(const RingSpace& space) : space(space) {}
 
   void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
@@ -32,6 +32,7 @@ public:
   FieldVector apply(const FieldVector& field) const override;
 
 private:
+  void number_unknowns(const Scene& scene);
   void factorise(const Scene& scene);
   dealii::Vector<double> to_places(const dealii::Vector<double>& contact_values) const;
   dealii::Vector<double> from_places(const dealii::Vector<double>& values) const;

@@ -1,14 +1,14 @@
 #include "angular_bubbles.h"
 
+#include "banded_matrix.h"
 #include "scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/lac/precondition.h>
 #include <deal.II/lac/solver_cg.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace rollwave {
 
@@ -20,7 +20,15 @@ using Cell = DoFHandler<2>::active_cell_iterator;
 
 /// Whether the neighbour of a cell over its face @p f towards the hub or the surface is as long.
 bool has_equal_neighbour(const Cell& cell, unsigned int f) {
-  return !cell->at_boundary(f) && cell->neighbor(f)->is_active() && !cell->neighbor_is_coarser(f);
+  if (cell->at_boundary(f))
+    return false;
+  const auto neighbour = cell->neighbor(f);
+  return neighbour->level() == cell->level() && neighbour->is_active();
+}
+
+/// Whether a process has the neighbour over the face @p f too, and it is as long.
+bool has_own_neighbour(const Cell& cell, unsigned int f) {
+  return has_equal_neighbour(cell, f) && cell->neighbor(f)->is_locally_owned();
 }
 
 /// The number on a cell, the radial index running fastest, of the node that carries g at the radial
@@ -44,64 +52,251 @@ double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wa
   return nearest;
 }
 
-/// The quadratic form int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz.
-class BubbleForm {
-public:
-  BubbleForm(const RingSpace& space, double bubble_square)
-      : scale(space.make_field()), bubble_square(bubble_square), scaled(scale),
-        n(space.dof_handler().get_fe().degree + 1) {}
-
-  /// A cell.
-  struct Part {
-    const ShapeProducts* radial;
-    double length;
-  };
-
-  /// @param places of the n values of g among a field's own and ghost values
-  void add(const Part& part, const std::vector<unsigned int>& places) {
-    parts.push_back(part);
-    nodes.insert(nodes.end(), places.begin(), places.end());
-  }
-
-  double entry(const Part& part, unsigned int i, unsigned int k) const {
-    return part.length * (part.length * part.length * bubble_square * part.radial->stiffness(i, k) +
-                          part.radial->mass(i, k));
-  }
-
-  /// The matrix times @p g.
-  void apply(FieldVector& result, const FieldVector& g) const {
-    g.update_ghost_values();
-    result = 0;
-    const unsigned int* places = nodes.data();
-    for (const Part& part : parts) {
-      for (unsigned int i = 0; i < n; ++i) {
-        double sum = 0;
-        for (unsigned int k = 0; k < n; ++k)
-          sum += entry(part, i, k) * g.local_element(places[k]);
-        result.local_element(places[i]) += sum;
-      }
-      places += n;
+/// Integrals over t of the polynomials of a degree, by Gauss' rule.
+struct AngularIntegrals {
+  explicit AngularIntegrals(unsigned int degree) : gauss(degree + 2), bubble_of(degree + 1) {
+    const auto mode = AngularBubbles::mode(degree), bubble = mode.primitive();
+    const auto lagrange = lobatto_lagrange(degree);
+    for (unsigned int q = 0; q < gauss.size(); ++q) {
+      const double t = gauss.point(q)[0], weight = gauss.weight(q);
+      weighted_mode.push_back(weight * mode.value(t));
+      bubble_square += weight * bubble.value(t) * bubble.value(t);
+      for (unsigned int j = 0; j <= degree; ++j)
+        bubble_of[j] += weight * bubble.value(t) * lagrange[j].value(t);
     }
-    result.compress(VectorOperation::add);
-    g.zero_out_ghost_values();
   }
 
-  /// The same with rows and columns times scale.
+  QGauss<1> gauss;
+  std::vector<double> weighted_mode; ///< P at the points, times their weights
+  double bubble_square = 0;          ///< int beta^2 dt
+  std::vector<double> bubble_of;     ///< int beta L_j dt
+};
+
+/**
+ * The quadratic form int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz on the columns of cells
+ * that a process has. A column goes from the hub outwards as far as cells of one length follow each
+ * other; the values of g in it are rows of a banded matrix, one column after another.
+ */
+class ColumnForm {
+public:
+  /// @param zero a field that is zero
+  ColumnForm(FieldVector zero, unsigned int degree)
+      : zero(std::move(zero)), degree(degree), matrix(degree), inverse(degree) {}
+
+  /// @param place of a value of g among a field's own and ghost values
+  void begin_column(unsigned int place) {
+    matrix.grow(1);
+    places.push_back(place);
+  }
+
+  /// The next cell of the column, with the places of its degree + 1 values of g.
+  void add_cell(const ShapeProducts& radial, double length, double bubble_square,
+                const std::vector<unsigned int>& cell_places) {
+    const unsigned int first = last_row();
+    matrix.grow(degree);
+    places.insert(places.end(), cell_places.begin() + 1, cell_places.end());
+    for (unsigned int i = 0; i <= degree; ++i)
+      for (unsigned int k = i; k <= degree; ++k)
+        matrix(first + i, k - i) +=
+            length * (length * length * bubble_square * radial.stiffness(i, k) + radial.mass(i, k));
+  }
+
+  unsigned int last_row() const { return places.size() - 1; }
+
+  /// Keeps g = 0 in a row; after factorise() in the last one of a column.
+  void fix(unsigned int row) {
+    matrix.clear(row);
+    if (inverse.size() > 0)
+      inverse.clear(row);
+  }
+
+  /// Another process has the rest of the column.
+  void cut(unsigned int row) { cuts.push_back(row); }
+
+  /// At each place the sum of what the rows of all processes have for it.
+  FieldVector add_up(const std::vector<double>& rows) const {
+    FieldVector sum = zero;
+    for (unsigned int row = 0; row < rows.size(); ++row)
+      sum.local_element(places[row]) += rows[row];
+    sum.compress(VectorOperation::add);
+    return sum;
+  }
+
+  /// Prepares precondition(), when all columns are there.
+  void factorise() {
+    std::vector<double> diagonal(places.size());
+    for (unsigned int row = 0; row < places.size(); ++row)
+      diagonal[row] = matrix(row, 0);
+    const std::vector<double> whole_diagonal = rows_of(add_up(diagonal));
+    inverse = matrix;
+    for (const unsigned int row : cuts) {
+      inverse.clear(row);
+      inverse(row, 0) = 2 * whole_diagonal[row]; // the other process adds as much
+    }
+    inverse.factorise();
+  }
+
   void vmult(FieldVector& result, const FieldVector& g) const {
-    scaled = g;
-    scaled.scale(scale);
-    apply(result, scaled);
-    result.scale(scale);
+    result = add_up(matrix.multiply(rows_of(g)));
   }
 
-  FieldVector scale; ///< 1 / sqrt(diagonal) where g is free, 0 where it is zero
+  /// The inverse of the form without what ties rows at cuts to others: the inverse itself where a
+  /// process has whole columns.
+  void precondition(FieldVector& result, const FieldVector& g) const {
+    result = add_up(inverse.solve(rows_of(g)));
+  }
+
+  /// What a field has for each row.
+  std::vector<double> rows_of(const FieldVector& field) const {
+    field.update_ghost_values();
+    std::vector<double> rows;
+    rows.reserve(places.size());
+    for (const unsigned int place : places)
+      rows.push_back(field.local_element(place));
+    field.zero_out_ghost_values();
+    return rows;
+  }
 
 private:
-  const double bubble_square; ///< int beta^2 dt
-  mutable FieldVector scaled; ///< g with the scale, only while it is applied
-  const unsigned int n;
-  std::vector<Part> parts;
-  std::vector<unsigned int> nodes; ///< n of each part
+  const FieldVector zero;
+  const unsigned int degree;
+  std::vector<unsigned int> places; ///< of the rows
+  std::vector<unsigned int> cuts;
+  BandedMatrix matrix, inverse;
+};
+
+/// As deal.II's solvers ask for it.
+struct ColumnPreconditioner {
+  const ColumnForm& form;
+  void vmult(FieldVector& result, const FieldVector& g) const { form.precondition(result, g); }
+};
+
+FieldVector solve(const ColumnForm& form, const FieldVector& load) {
+  FieldVector g = load;
+  g = 0;
+  // One step where no column is cut.
+  IterationNumberControl control(100, 1e-8 * load.l2_norm());
+  SolverCG<FieldVector>(control).solve(form, g, load, ColumnPreconditioner{form});
+  return g;
+}
+
+/// Form and load of D(tau) as a function of g.
+class ColumnAssembler {
+public:
+  ColumnAssembler(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
+                  const FieldVector& potential, const std::vector<EdgePressure>& pressures,
+                  ForceColumns* columns)
+      : form(space.make_field(), space.dof_handler().get_fe().degree), space(space), scene(scene),
+        shapes(shapes), potential(potential), pressures(pressures), columns(columns),
+        degree(space.dof_handler().get_fe().degree), n(degree + 1), integrals(degree),
+        numbering(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())
+                      .get_poly_space_numbering_inverse()),
+        dofs(n * n), places(n), psi_bubble(n) {
+    for (const auto& cell : space.dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned() && !has_own_neighbour(cell, 0))
+        add_column(cell);
+    form.factorise();
+  }
+
+  FieldVector load() const { return form.add_up(load_of_row); }
+
+  /// Where pressures can change.
+  struct SurfaceRow {
+    unsigned int row, edge;
+  };
+
+  ColumnForm form;
+  std::vector<SurfaceRow> surface_rows;
+
+private:
+  /// The column that begins with a cell.
+  void add_column(Cell cell) {
+    find_places(cell);
+    form.begin_column(places[0]);
+    load_of_row.push_back(0);
+    const unsigned int first_row = form.last_row();
+    const bool is_cut_below = has_equal_neighbour(cell, 0);
+    const bool is_fixed_below = !cell->at_boundary(0) && !is_cut_below;
+    for (;;) {
+      add_cell(cell);
+      if (!has_own_neighbour(cell, 1))
+        break;
+      cell = cell->neighbor(1);
+      find_places(cell);
+    }
+    const auto edge = space.surface_face(cell);
+    const bool is_cut_above = has_equal_neighbour(cell, 1);
+    const bool is_fixed_above = edge ? !(pressures[*edge].mean > 0) : !is_cut_above;
+    if (is_fixed_below)
+      fix(first_row);
+    if (is_fixed_above)
+      fix(form.last_row());
+    else if (edge)
+      surface_rows.push_back({form.last_row(), *edge});
+    if (is_cut_below)
+      form.cut(first_row);
+    if (is_cut_above)
+      form.cut(form.last_row());
+  }
+
+  void find_places(const Cell& cell) {
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < n; ++i)
+      places[i] = potential.get_partitioner()->global_to_local(dofs[numbering[carrier(i, n)]]);
+  }
+
+  void fix(unsigned int row) {
+    form.fix(row);
+    load_of_row[row] = 0;
+  }
+
+  void add_cell(const Cell& cell) {
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    const double length = high[1] - low[1];
+    const RadialShapes& radial = shapes.on(low[0], high[0]);
+    const unsigned int first_row = form.last_row();
+    form.add_cell(radial.products, length, integrals.bubble_square, places);
+    load_of_row.resize(load_of_row.size() + degree);
+    double* const load = &load_of_row[first_row];
+
+    for (unsigned int i = 0; i < n; ++i) {
+      psi_bubble[i] = 0;
+      for (unsigned int j = 0; j < n; ++j)
+        psi_bubble[i] += integrals.bubble_of[j] * potential(dofs[numbering[i + n * j]]);
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < n; ++k)
+        load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
+    if (columns && !columns->are_exact())
+      for (unsigned int p = 0; p < integrals.gauss.size(); ++p) {
+        const auto& column = columns->at(low[1] + length * integrals.gauss.point(p)[0]);
+        for (unsigned int q = 0; q < radial.r.size(); ++q)
+          for (unsigned int i = 0; i < n; ++i)
+            load[i] += length * integrals.weighted_mode[p] * column.integral(radial.r[q]) /
+                       radial.r[q] * radial.weight[q] * radial.shapes[q][i].potential;
+      }
+    if (const auto edge = space.surface_face(cell); edge && pressures[*edge].mean > 0) {
+      const SurfaceFace& face = space.surface_faces()[*edge];
+      for (unsigned int p = 0; p < integrals.gauss.size(); ++p)
+        load[degree] -=
+            length * integrals.weighted_mode[p] *
+            scene.road(face.begin + integrals.gauss.point(p)[0] * (face.end - face.begin));
+    }
+  }
+
+  const RingSpace& space;
+  const Scene& scene;
+  RadialShapesOfMesh& shapes;
+  const FieldVector& potential;
+  const std::vector<EdgePressure>& pressures;
+  ForceColumns* const columns;
+  const unsigned int degree, n;
+  const AngularIntegrals integrals;
+  const std::vector<unsigned int> numbering;
+  std::vector<double> load_of_row;
+  std::vector<types::global_dof_index> dofs; ///< of the cell looked at
+  std::vector<unsigned int> places;          ///< of its values of g
+  std::vector<double> psi_bubble;
 };
 
 } // namespace
@@ -114,100 +309,29 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
                                RadialShapesOfMesh& shapes, const FieldVector& potential,
                                const std::vector<EdgePressure>& pressures, ForceColumns* columns)
     : n(space.dof_handler().get_fe().degree + 1), field(space.make_field()) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const auto numbering = element.get_poly_space_numbering_inverse();
-  const unsigned int degree = element.degree;
-  const auto highest = mode(degree), bubble = highest.primitive();
-  const auto lagrange = lobatto_lagrange(degree);
-  const QGauss<1> gauss(degree + 2);
-  const auto& partitioner = *field.get_partitioner();
-  double bubble_square = 0;
-  std::vector<double> bubble_of(n), weighted_mode(gauss.size()); // int beta L_j dt; P at the points
-  for (unsigned int q = 0; q < gauss.size(); ++q) {
-    const double t = gauss.point(q)[0], weight = gauss.weight(q);
-    weighted_mode[q] = weight * highest.value(t);
-    bubble_square += weight * bubble.value(t) * bubble.value(t);
-    for (unsigned int j = 0; j < n; ++j)
-      bubble_of[j] += weight * bubble.value(t) * lagrange[j].value(t);
+  ColumnAssembler assembler(space, scene, shapes, potential, pressures, columns);
+  ColumnForm& form = assembler.form;
+  const FieldVector load = assembler.load();
+  field = solve(form, load);
+
+  // Of a convex function of each column the least with a bound of one value has that value at the
+  // bound, and the rest as is best then.
+  std::vector<double> g = form.rows_of(field), excess(g.size());
+  const double b = scene.outer_radius;
+  for (const auto& [row, edge] : assembler.surface_rows)
+    excess[row] = g[row] - b * nearest_mode(pressures[edge], n - 1, g[row] / b);
+  field -= form.add_up(excess);
+  FieldVector residual = space.make_field();
+  form.vmult(residual, field);
+  residual.sadd(-1, load);
+  g = form.rows_of(residual);
+  excess.assign(g.size(), 0);
+  for (const auto& [row, edge] : assembler.surface_rows) {
+    excess[row] = g[row];
+    form.fix(row);
   }
-
-  BubbleForm form(space, bubble_square);
-  FieldVector load = space.make_field(), diagonal = space.make_field();
-  std::vector<types::global_dof_index> dofs(n * n);
-  std::vector<double> psi_bubble(n);
-  std::vector<unsigned int> places(n);
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const double length = high[1] - low[1];
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
-    cell->get_dof_indices(dofs);
-    const BubbleForm::Part part{&radial.products, length};
-    std::array<double, 9> cell_load = {};
-    for (unsigned int i = 0; i < n; ++i) {
-      psi_bubble[i] = 0;
-      for (unsigned int j = 0; j < n; ++j)
-        psi_bubble[i] += bubble_of[j] * potential(dofs[numbering[i + n * j]]);
-      places[i] = partitioner.global_to_local(dofs[numbering[carrier(i, n)]]);
-    }
-    form.add(part, places);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int k = 0; k < n; ++k)
-        cell_load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
-    if (columns && !columns->are_exact())
-      for (unsigned int p = 0; p < gauss.size(); ++p) {
-        const auto& column = columns->at(low[1] + length * gauss.point(p)[0]);
-        for (unsigned int q = 0; q < radial.r.size(); ++q)
-          for (unsigned int i = 0; i < n; ++i)
-            cell_load[i] += length * weighted_mode[p] * column.integral(radial.r[q]) / radial.r[q] *
-                            radial.weight[q] * radial.shapes[q][i].potential;
-      }
-    const auto edge = space.surface_face(cell);
-    const bool has_pressure = edge && pressures[*edge].mean > 0;
-    if (has_pressure) {
-      const SurfaceFace& face = space.surface_faces()[*edge];
-      for (unsigned int p = 0; p < gauss.size(); ++p)
-        cell_load[degree] -= length * weighted_mode[p] *
-                             scene.road(face.begin + gauss.point(p)[0] * (face.end - face.begin));
-    }
-    const bool is_free_below = cell->at_boundary(0) || has_equal_neighbour(cell, 0);
-    const bool is_free_above = edge ? has_pressure : has_equal_neighbour(cell, 1);
-    for (unsigned int i = is_free_below ? 0 : 1; i < (is_free_above ? n : degree); ++i) {
-      load.local_element(places[i]) += cell_load[i];
-      diagonal.local_element(places[i]) += form.entry(part, i, i);
-    }
-  }
-  load.compress(VectorOperation::add);
-  diagonal.compress(VectorOperation::add);
-  for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
-    if (diagonal.local_element(i) > 0)
-      form.scale.local_element(i) = 1 / std::sqrt(diagonal.local_element(i));
-
-  FieldVector scaled_load = load;
-  scaled_load.scale(form.scale);
-  // More steps gain little but in the flattest cells.
-  IterationNumberControl control(20, 0.1 * scaled_load.l2_norm());
-  SolverCG<FieldVector>(control).solve(form, field, scaled_load, PreconditionIdentity());
-  field.scale(form.scale);
-
-  FieldVector excess = space.make_field();
-  field.update_ghost_values();
-  for (const auto& cell : space.dof_handler().active_cell_iterators())
-    if (const auto edge = space.surface_face(cell); edge && cell->is_locally_owned()) {
-      cell->get_dof_indices(dofs);
-      const auto node = dofs[numbering[carrier(degree, n)]];
-      const double b = scene.outer_radius;
-      excess(node) += field(node) - b * nearest_mode(pressures[*edge], degree, field(node) / b);
-    }
-  excess.compress(VectorOperation::add);
-  field.zero_out_ghost_values();
-  field -= excess;
-
-  FieldVector product = space.make_field();
-  form.apply(product, field);
-  const double square = field * product;
-  field *= square > 0 ? std::clamp(load * field / square, 0., 1.) : 0;
+  residual -= form.add_up(excess);
+  field += solve(form, residual);
   field.update_ghost_values();
 }
 

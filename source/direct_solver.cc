@@ -11,9 +11,11 @@ namespace rollwave {
 
 using namespace dealii;
 
-DirectSolver::DirectSolver(const RingSpace& space, const Scene& scene)
-    : space(space), unknown_of_dof(number_unknowns(space, scene)) {
+void DirectSolver::number_unknowns(const Scene& scene) {
+  const Work::Phase phase(*work, "ordering");
+  unknown_of_dof = rollwave::number_unknowns(space, scene);
   const unsigned int first_contact_unknown = space.n_unknowns() - space.contact_nodes().size();
+  places.clear();
   for (const SurfaceNode& node : space.contact_nodes())
     places.push_back(unknown_of_dof[node.dof] - first_contact_unknown);
 }
@@ -35,6 +37,8 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
 }
 
 void DirectSolver::factorise(const Scene& scene) {
+  if (!cholesky)
+    number_unknowns(scene);
   const unsigned int m = places.size();
   angular_velocity.reset(); // until the factor is there
   schur.reset();

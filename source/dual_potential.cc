@@ -47,17 +47,15 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
   const auto surface_values = surface_potential(space, pressures, growth);
   AffineConstraints<double> constraints(space.relevant_dofs());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (cell->is_artificial())
+    if (!cell->at_boundary(1) || cell->is_artificial())
       continue;
-    const auto edge = space.surface_face(cell);
-    if (!edge)
-      continue;
+    const unsigned int edge = *space.surface_face(cell);
     // Not SurfaceFace::nodes, in which both sides of the seam are one.
     const auto dofs = dofs_on_edge(cell->face(1), space.dof_handler().get_fe().degree);
     for (unsigned int k = 0; k < dofs.size(); ++k)
       if (!constraints.is_constrained(dofs[k])) {
         constraints.add_line(dofs[k]);
-        constraints.set_inhomogeneity(dofs[k], surface_values[*edge][k]);
+        constraints.set_inhomogeneity(dofs[k], surface_values[edge][k]);
       }
   }
   // The mesh has many hanging nodes, but they lie at few places.

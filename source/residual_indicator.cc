@@ -172,7 +172,8 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   std::vector<types::global_dof_index> dofs(n * n);
   const auto gather = [&](const auto& cell) {
-    CellField u{n, {}};
+    CellField u;
+    u.n = n;
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < n * n; ++i)
       u.nodal[i] = field(dofs[numbering[i]]);
@@ -201,13 +202,15 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
     angular_mode = 0;
     for (unsigned int p = 0; p < n; ++p) {
       // Along the line z = const: u and its first two derivatives by z at the radial nodes
-      std::array<double, 9> line = {}, line_z = {}, line_zz = {};
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i) {
+      std::array<double, 9> line, line_z, line_zz;
+      for (unsigned int i = 0; i < n; ++i) {
+        line[i] = line_z[i] = line_zz[i] = 0;
+        for (unsigned int j = 0; j < n; ++j) {
           line[i] += inside.value[p][j] * u.nodal[i + n * j];
           line_z[i] += inside.first[p][j] / h_z * u.nodal[i + n * j];
           line_zz[i] += inside.second[p][j] / (h_z * h_z) * u.nodal[i + n * j];
         }
+      }
       const auto sum = [n](const std::array<double, 9>& radial,
                            const std::array<double, 9>& on_line) {
         double result = 0;

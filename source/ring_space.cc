@@ -40,9 +40,7 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     n_own_unknowns += !affine_constraints.is_constrained(dof);
   unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
 
-  if (is_alone(communicator()))
-    order = dissect(handler);
-  else
+  if (!is_alone(communicator()))
     for (const auto& line : affine_constraints.get_lines())
       for (const auto& entry : line.entries)
         relevant.add_index(entry.first);
@@ -148,6 +146,12 @@ RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) cons
   if (!cell->at_boundary(1))
     return {};
   return face_from.at(cell->vertex(1)[1]);
+}
+
+const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
+  if (order.empty())
+    order = dissect(handler);
+  return order;
 }
 
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {

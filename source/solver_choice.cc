@@ -19,7 +19,7 @@ SolverChoice make_stiffness_solver(SolverKind kind, const RingSpace& space, cons
   }
   if (kind != SolverKind::iterative)
     try {
-      choice.solver = std::make_unique<DirectSolver>(space, scene);
+      choice.solver = std::make_unique<DirectSolver>(space);
       choice.solver->turn_to(scene, load, work);
       return choice;
     } catch (const NotEnoughMemory& shortage) {

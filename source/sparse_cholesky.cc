@@ -12,13 +12,22 @@
 
 namespace rollwave {
 
+namespace {
+
+/// From how many unknowns on memory counts more than time: with fewer the factor and all else
+/// stay below half a GiB.
+constexpr int many_unknowns = 400000;
+
+} // namespace
+
 /// CHOLMOD's objects, released together.
 struct SparseCholesky::Cholmod {
+  const bool saves_memory;
   cholmod_common common;
   cholmod_sparse* matrix = nullptr;
   cholmod_factor* factor = nullptr;
 
-  Cholmod() {
+  explicit Cholmod(int n) : saves_memory(n >= many_unknowns) {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
@@ -27,23 +36,32 @@ struct SparseCholesky::Cholmod {
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_NATURAL;
     common.postorder = 0;
-    // Supernodes are merged less eagerly than by default: 10 % less memory in about the same time.
-    common.nrelax[1] = 10;
-    common.nrelax[2] = 24;
-    common.zrelax[0] = 0.36;
-    common.zrelax[1] = 0.05;
-    common.zrelax[2] = 0.02;
+    if (saves_memory) {
+      // Supernodes are merged less eagerly than by default: a tenth less memory.
+      common.nrelax[1] = 10;
+      common.nrelax[2] = 24;
+      common.zrelax[0] = 0.36;
+      common.zrelax[1] = 0.05;
+      common.zrelax[2] = 0.02;
+    }
   }
 
   ~Cholmod() {
     cholmod_free_factor(&factor, &common);
     cholmod_free_sparse(&matrix, &common);
     cholmod_finish(&common);
-    release_freed_memory();
+    release();
   }
 
   Cholmod(const Cholmod&) = delete;
   Cholmod& operator=(const Cholmod&) = delete;
+
+  /// Gives freed memory back to the system where that matters. Elsewhere the next factorisation
+  /// would wait for every page of it again.
+  void release() const {
+    if (saves_memory)
+      release_freed_memory();
+  }
 
   void check(const std::string& step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
@@ -93,7 +111,7 @@ struct SparseCholesky::Cholmod {
   }
 };
 
-SparseCholesky::SparseCholesky(int n) : cholmod(std::make_unique<Cholmod>()), n(n) {}
+SparseCholesky::SparseCholesky(int n) : cholmod(std::make_unique<Cholmod>(n)), n(n) {}
 
 bool SparseCholesky::set_matrix(const LowerTriplets& triplets) {
   cholmod_common& common = cholmod->common;
@@ -132,11 +150,11 @@ void SparseCholesky::factorise() {
   // Mesh, assembly and ordering leave much free memory behind, in pieces that a large factor does
   // not fit.
   cholmod_free_work(&cholmod->common);
-  release_freed_memory();
+  cholmod->release();
   const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod_free_work(&cholmod->common);
-  release_freed_memory();
+  cholmod->release();
   cholmod->check("factorisation");
 }
 

@@ -87,7 +87,7 @@ struct FullCircle {
       : parameters(parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=16",
                                   "Mesh/Angular cells=12"})),
         scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
-        solver(ring.space, scene), problem(make_contact_problem(ring.space, scene)) {
+        solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
     solver.turn_to(scene, {}, work);
   }
 
@@ -127,7 +127,7 @@ struct Prepared {
   explicit Prepared(const Parameters& parameters)
       : scene(make_scene(parameters)), ring(scene, parameters),
         load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
-        solver(ring.space, scene), problem(make_contact_problem(ring.space, scene)) {
+        solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
     solver.turn_to(scene, load, work);
   }
 
