@@ -8,8 +8,8 @@ namespace rollwave {
 
 /**
  * A file that is either complete or absent: it is written beside its place as "NAME.part" and moved
- * there by commit(). Without commit() nothing remains, unless the process is killed: then
- * "NAME.part" does, until the file is written again.
+ * there by commit() after finish(). Without commit() nothing remains, unless the process is killed:
+ * then "NAME.part" does, until the file is written again.
  */
 class AtomicFile {
 public:
@@ -21,9 +21,12 @@ public:
 
   std::ostream& stream() { return out; }
 
-  /// Moves the file to its place and returns its size in bytes.
+  /// Waits until all is on the disk and returns the size in bytes.
   /// @throws NotWritten when anything could not be written.
-  unsigned long commit();
+  unsigned long finish();
+
+  /// Moves the file, when it is finished, to its place. @throws NotWritten.
+  void commit();
 
 private:
   std::filesystem::path path;

@@ -23,7 +23,7 @@ struct MeshSystem;
  *
  * v is the discrete displacement but for the cells at the surface, where the correction c(z) of
  * FeasibleTrace is added, fading linearly to the inner side of the cell. tau comes from
- * solve_dual_potential(), in terms of which the first integral is
+ * a DualPotential with AngularBubbles psi, in terms of which the first integral is
  *
  *     int [ r alpha (psi_s + v_z)^2 + r ((G - psi_z)/r - v_r)^2 ] dr dz.
  *
@@ -36,9 +36,9 @@ struct MeshSystem;
  * gives a(v - u, v - u)^(1/2) <= C delta + (C^2 delta^2 + eta^2)^(1/2), and the bounds of J open
  * accordingly.
  *
- * All integrals are taken by Gauss' rules with at least degree + 2 points on each cell, those along
- * the road with degree + 6: the bound assumes that these resolve phi, and that ||f - f_h|| is seen
- * by four times as many points.
+ * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
+ * road with degree + 6 points: the bound assumes that these resolve phi, and that ||f - f_h|| is
+ * seen by four times as many points.
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds
@@ -47,7 +47,7 @@ struct Certificate {
 };
 
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
-/// space, whose dual potential is made here when it lacks.
+/// space, whose dual potential is made here when it lacks, and dropped unless the system is kept.
 /// @throws NotSolved when memory is short.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,

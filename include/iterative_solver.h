@@ -17,8 +17,8 @@ namespace rollwave {
  *     K_ff u_f = f_f - N_f - K_fp u_p,   then   N_p = f_p - K_pf u_f - K_pp u_p,
  *
  * by a MultigridSolver for the same nodes, started from the field of the solve before. On many
- * processes each contact step ends with one sum over all of them for the values of the contact
- * nodes, and so with the same active set.
+ * processes each solve ends with one sum over all of them for the values of the contact nodes, and
+ * so each contact step with the same active set.
  */
 class IterativeSolver : public StiffnessSolver {
 public:

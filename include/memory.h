@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_MEMORY_H
 #define ROLLWAVE_MEMORY_H
 
+#include <mpi.h>
+
 #include <optional>
 #include <string>
 
@@ -18,10 +20,14 @@ std::optional<double> memory_below_limit();
 void reserve_blas_memory();
 
 /// Refuses work that would drive the machine out of memory, where the system might end any process
-/// instead of failing an allocation, or this process to its limit, where libraries end it in their
-/// own ways. Does nothing where the free memory is not known.
-/// @throws NotEnoughMemory when less than @p bytes are available; @p purpose says what needs them.
-void require_memory(double bytes, const std::string& purpose);
+/// instead of failing an allocation, or a process to its limit, where libraries end it in their own
+/// ways. Does nothing where the free memory is not known. All processes of @p communicator must
+/// ask.
+/// @param bytes that this process needs @param purpose what needs them
+/// @throws NotEnoughMemory on all processes when one of them lacks its bytes, or a machine those of
+///         its processes.
+void require_memory(double bytes, const std::string& purpose,
+                    MPI_Comm communicator = MPI_COMM_SELF);
 
 /// Returns to the system what this process has freed but still holds, where the C library can do
 /// so.

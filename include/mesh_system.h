@@ -17,6 +17,7 @@ struct MeshSystem {
   std::unique_ptr<DualPotential> potential;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::string force;               ///< the text of the force that the load belongs to
+  bool is_kept = true; ///< whether another scene may come; else solvers go when they have solved
 };
 
 } // namespace rollwave

@@ -11,6 +11,9 @@
 
 namespace rollwave {
 
+/// Of the elements, `Mesh/Degree`.
+constexpr unsigned int highest_degree = 8;
+
 enum class ContactMethod {
   /// "active set": primal-dual active set (semismooth Newton); needs no step length.
   active_set,

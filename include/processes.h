@@ -53,6 +53,9 @@ double sum_on_machine(MPI_Comm communicator, double value);
 /// The text that the first process has, on all of them.
 std::string share_text(MPI_Comm communicator, const std::string& text);
 
+/// The text of the first process that has one, on all of them; empty when none has.
+std::string first_text(MPI_Comm communicator, const std::string& text);
+
 /// The texts of all processes, on the first of them; nothing on the others.
 std::vector<std::string> gather_texts(MPI_Comm communicator, const std::string& text);
 

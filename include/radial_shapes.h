@@ -28,8 +28,6 @@ struct RadialShape {
  * points for displacements, PotentialShapes for potentials.
  */
 struct RadialShapes {
-  double begin;
-  double end;
   std::vector<double> r;
   std::vector<double> weight; ///< of the rule for dr
   std::vector<double> alpha;

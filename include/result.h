@@ -125,6 +125,7 @@ struct Result {
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
   Work work;
+  double peak_memory_mib = 0; ///< the largest of all processes
 };
 
 /// The same with lengths in the user's lengths, of which @p unit is Scene::unit: what is a length

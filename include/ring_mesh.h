@@ -23,15 +23,22 @@ enum BoundaryId : unsigned int {
   seam_end_id = 3    ///< z = 5 pi/2, the same points as z = pi/2
 };
 
+/// The unknowns of the first mesh, but for the few that the hub takes away.
+double count_unknowns(const Parameters& parameters);
+
+/// @throws BadInput when the first mesh would have more than `Mesh/Most unknowns` unknowns.
+void check_mesh_size(const Parameters& parameters);
+
 /**
- * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), refined
- * `Mesh/Global refinements` times, periodic over the seam. Where `Road/Contact zone` is given, its
+ * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` rectangles in (r, z), equal but that
+ * their heights grow geometrically near a small hub, refined `Mesh/Global refinements` times,
+ * periodic over the seam. Where `Road/Contact zone` is given, its
  * ends are vertices, and the cells within and outside of it differ in length as they must: a zone
  * that ended inside of cells would cut the contact short at another place on every mesh.
  *
  * On several processes the mesh is p4est's, each of them having a part of it.
  *
- * @throws BadInput when it would have more than `Mesh/Most unknowns` unknowns.
+ * @throws BadInput as check_mesh_size(), NotEnoughMemory.
  */
 std::unique_ptr<dealii::Triangulation<2, 2>>
 make_ring_mesh(const Scene& scene, const Parameters& parameters, MPI_Comm communicator);

@@ -6,6 +6,10 @@
 
 namespace rollwave {
 
+/// Checks what needs no mesh to be seen. @throws BadInput for a mesh that is too large, or a kind
+/// of solver that does not work on @p n_processes.
+void check_simulation(const Parameters& parameters, unsigned int n_processes);
+
 /**
  * Solves @p scene on the mesh and by the methods of @p parameters; with adaptive cycles: solve,
  * certify where needed, indicate, mark, refine, beginning each contact iteration with the pressure

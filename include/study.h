@@ -26,7 +26,8 @@ struct Study {
  * same study, that is beside a parameters.prm with the same text, only the missing runs are made.
  * Where a run continues the mesh of the run before, that takes all runs since the mesh was begun.
  *
- * On several processes all of them make each run together, and the first of them writes.
+ * On several processes all of them make each run together, or groups of `Study/Processes per scene`
+ * make several at a time; the first of them writes.
  *
  * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
  * and no further run is begun.

@@ -29,7 +29,7 @@ struct StudyRun {
   std::string curve() const;
 };
 
-/// The figures of a solved scene, and the peak memory of the process so far.
+/// The figures of a solved scene, and its peak memory.
 std::map<std::string, double> figures_of(const Result& result);
 
 /// study.csv: `scene` where there are several, the varied keys, `solved`, `published_steps`,

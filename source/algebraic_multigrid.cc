@@ -115,7 +115,7 @@ AlgebraicMultigrid::AlgebraicMultigrid(const TrilinosWrappers::SparseMatrix& mat
   HYPRE_BoomerAMGSetCycleRelaxType(cycle, symmetric, coarsest);
   HYPRE_BoomerAMGSetCycleNumSweeps(cycle, 4, coarsest);
   HYPRE_BoomerAMGSetup(cycle, hypre->parallel_matrix, hypre->rhs.vector, hypre->solution.vector);
-  if (const int error = HYPRE_GetError()) {
+  if (const int error = Utilities::MPI::max(int(HYPRE_GetError()), communicator)) {
     HYPRE_ClearAllErrors();
     throw NotSolved("the multigrid hierarchy could not be made, hypre's error " +
                     std::to_string(error));

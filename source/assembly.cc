@@ -1,6 +1,7 @@
 #include "assembly.h"
 
 #include "errors.h"
+#include "processes.h"
 #include "radial_rule.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -87,6 +88,7 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   Vector<double> cell_vector(element.n_dofs_per_cell());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
   FieldVector load = space.make_field();
+  std::string refusal;
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -98,14 +100,17 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
       const double r = point[0];
       const double z = std::fmod(point[1], 2 * numbers::PI);
       const double f = scene.force(r, z);
-      if (!std::isfinite(f))
-        throw BadInput(not_finite_at(r * scene.unit, z));
+      if (!std::isfinite(f) && refusal.empty())
+        refusal = not_finite_at(r * scene.unit, z);
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
     }
     cell->get_dof_indices(dofs);
     space.constraints().distribute_local_to_global(cell_vector, dofs, load);
   }
+  refusal = first_text(space.communicator(), refusal);
+  if (!refusal.empty())
+    throw BadInput(refusal);
   load.compress(VectorOperation::add);
   return load;
 }

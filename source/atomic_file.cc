@@ -45,7 +45,7 @@ AtomicFile::~AtomicFile() {
   std::filesystem::remove(part, ignored);
 }
 
-unsigned long AtomicFile::commit() {
+unsigned long AtomicFile::finish() {
   const bool has_failed = !out;
   if (has_failed) {
     out.clear();
@@ -59,17 +59,24 @@ unsigned long AtomicFile::commit() {
     fail(path, errno);
   std::error_code error;
   const auto size = std::filesystem::file_size(part, error);
-  if (!error)
-    std::filesystem::rename(part, path, error);
   if (error)
     fail(path, error.value());
   return size;
 }
 
+void AtomicFile::commit() {
+  std::error_code error;
+  std::filesystem::rename(part, path, error);
+  if (error)
+    fail(path, error.value());
+}
+
 unsigned long write_file(const std::filesystem::path& path, const std::string& content) {
   AtomicFile file(path);
   file.stream() << content;
-  return file.commit();
+  const unsigned long size = file.finish();
+  file.commit();
+  return size;
 }
 
 } // namespace rollwave

@@ -3,6 +3,7 @@
 #include "angular_bubbles.h"
 #include "contact_free.h"
 #include "mesh_system.h"
+#include "parameters.h"
 #include "scene.h"
 #include "work.h"
 
@@ -172,7 +173,7 @@ public:
                         const FeasibleTrace::Correction& correction) const {
     const double length = high[1] - low[1];
     // Coefficients along the line of u, psi and their angular derivatives
-    std::array<double, 9> line_u, line_u_z, line_psi, line_psi_z;
+    std::array<double, highest_degree + 1> line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -282,6 +283,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     dual = std::make_unique<DualPotential>(space, system.stiffness.kind);
   const FieldVector potential =
       dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
+  if (!system.is_kept)
+    dual.reset();
 
   const auto& triangulation = space.dof_handler().get_triangulation();
   const AngularBubbles bubbles(space, scene, shapes, potential, pressures,

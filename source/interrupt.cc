@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <csignal>
+#include <iterator>
 #include <string_view>
 #include <unistd.h>
 
@@ -37,6 +38,16 @@ void heed_interrupts() {
     action.sa_flags = SA_RESTART; // reading and writing go on
     sigaction(signal, &action, nullptr);
   }
+}
+
+KeptInterrupts::KeptInterrupts() {
+  for (unsigned int i = 0; i < std::size(interrupts); ++i)
+    sigaction(interrupts[i], nullptr, &kept[i]);
+}
+
+KeptInterrupts::~KeptInterrupts() {
+  for (unsigned int i = 0; i < std::size(interrupts); ++i)
+    sigaction(interrupts[i], &kept[i], nullptr);
 }
 
 bool is_interrupted(MPI_Comm communicator) {

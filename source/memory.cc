@@ -1,6 +1,7 @@
 #include "memory.h"
 
 #include "errors.h"
+#include "processes.h"
 
 #include <deal.II/base/utilities.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -73,17 +74,24 @@ void reserve_blas_memory() {
   matrix.compute_cholesky_factorization();
 }
 
-void require_memory(double bytes, const std::string& purpose) {
+void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator) {
   const double below_limit =
       memory_below_limit().value_or(std::numeric_limits<double>::infinity()) - libraries_bytes;
-  const double available = std::max(0., std::min(available_memory(), below_limit));
-  if (bytes <= available)
-    return;
-  std::ostringstream message;
-  message.precision(3);
-  message << purpose << " needs " << bytes / mebibyte << " MiB of memory, and "
-          << available / mebibyte << " MiB are available";
-  throw NotEnoughMemory(message.str());
+  const double on_machine = sum_on_machine(communicator, bytes), of_machine = available_memory();
+  std::string lack;
+  if (bytes > below_limit || on_machine > of_machine) {
+    const bool is_limited = bytes > below_limit;
+    std::ostringstream message;
+    message.precision(3);
+    message << purpose << " needs " << (is_limited ? bytes : on_machine) / mebibyte
+            << " MiB of memory, and "
+            << std::max(0., is_limited ? below_limit : of_machine) / mebibyte
+            << " MiB are available";
+    lack = message.str();
+  }
+  lack = first_text(communicator, lack);
+  if (!lack.empty())
+    throw NotEnoughMemory(lack);
 }
 
 void release_freed_memory() {

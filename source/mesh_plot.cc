@@ -2,7 +2,6 @@
 
 #include "gnuplot.h"
 #include "processes.h"
-#include "radial_shapes.h"
 
 #include <deal.II/grid/tria.h>
 

@@ -2,6 +2,7 @@
 
 #include "atomic_file.h"
 #include "errors.h"
+#include "memory.h"
 #include "mesh_plot.h"
 #include "processes.h"
 #include "scene_plot.h"
@@ -9,9 +10,11 @@
 #include "summary.h"
 #include "version.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <limits>
 #include <ostream>
+#include <regex>
 #include <sstream>
 #include <unistd.h>
 
@@ -29,6 +32,21 @@ std::string contact_csv(const Result& result) {
     out << row.angle << ',' << row.displacement << ',' << row.road << ',' << row.gap << ','
         << row.pressure << '\n';
   return out.str();
+}
+
+/// Removes the fields of earlier runs, which another number of processes left in files of other
+/// names.
+void remove_other_solutions(const std::filesystem::path& directory,
+                            const std::vector<std::filesystem::path>& files) {
+  const std::regex name("solution(\\.[0-9]+)?\\.p?vtu");
+  std::error_code ignored;
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
+    if (std::regex_match(entry.path().filename().string(), name) &&
+        std::find(files.begin(), files.end(), entry.path()) == files.end())
+      others.push_back(entry.path());
+  for (const auto& other : others)
+    std::filesystem::remove(other, ignored);
 }
 
 } // namespace
@@ -92,8 +110,9 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       if (!fits)
         written.remarks.push_back("solution.vtu gives lengths over the outer radius, since they "
                                   "leave the range of single precision");
-      work.bytes_written +=
-          Utilities::MPI::sum(static_cast<unsigned long>(file.commit()), communicator);
+      // No piece is moved to its place before all are on the disk.
+      work.bytes_written += Utilities::MPI::sum(file.finish(), communicator);
+      file.commit();
       for (const std::string& piece : pieces)
         written.files.push_back(directory / piece);
       if (n_processes > 1) {
@@ -101,6 +120,8 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
         write_solution_pvtu(record, solution, pieces);
         add("solution.pvtu", record.str());
       }
+      if (process == 0)
+        remove_other_solutions(directory, written.files);
     }
     const auto add_picture = [&](const std::string& name, const std::optional<std::string>& svg) {
       if (svg)
@@ -114,6 +135,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
     if (parameters.wants(OutputFile::mesh))
       add_picture("mesh.svg", plot_mesh(scene, solution));
   }
+  solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary))
     add("summary.json", summary_json(scene, parameters, to_lengths(solution.result, scene.unit)));
   return written;

@@ -116,7 +116,7 @@ void declare(Declarations& keys, Parameters& p) {
   keys.leave();
 
   keys.enter("Mesh");
-  keys.add_count("Degree", p.mesh.degree, 1, 8,
+  keys.add_count("Degree", p.mesh.degree, 1, highest_degree,
                  "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.");
   keys.add_count(
       "Radial cells", p.mesh.radial_cells, 1, most,

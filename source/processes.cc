@@ -1,5 +1,7 @@
 #include "processes.h"
 
+#include "interrupt.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
@@ -24,6 +26,7 @@ bool is_launched_with_others() {
 } // namespace
 
 Processes::Processes(int& argc, char**& argv) {
+  const KeptInterrupts kept;
   if (is_launched_with_others())
     mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(argc, argv, /*max_num_threads=*/1);
 }
@@ -36,7 +39,8 @@ bool Processes::is_first() const {
 
 void Processes::let_first_speak() const {
   if (!is_first())
-    std::this_thread::sleep_for(std::chrono::seconds(2));
+    std::this_thread::sleep_for(
+        std::chrono::milliseconds(2000 + 200 * process_number(communicator())));
 }
 
 int Processes::end(int exit_code) const {
@@ -69,6 +73,15 @@ double sum_on_machine(MPI_Comm communicator, double value) {
 
 std::string share_text(MPI_Comm communicator, const std::string& text) {
   return is_alone(communicator) ? text : Utilities::MPI::broadcast(communicator, text);
+}
+
+std::string first_text(MPI_Comm communicator, const std::string& text) {
+  if (is_alone(communicator))
+    return text;
+  const unsigned int none = count_processes(communicator);
+  const unsigned int first =
+      Utilities::MPI::min(text.empty() ? none : process_number(communicator), communicator);
+  return first < none ? Utilities::MPI::broadcast(communicator, text, first) : std::string();
 }
 
 std::vector<std::string> gather_texts(MPI_Comm communicator, const std::string& text) {

@@ -44,8 +44,6 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
   const RadialRule rule =
       graded_rule(begin, end, QGauss<1>(n_points(lagrange.size() - 1, end / begin)));
   RadialShapes shapes;
-  shapes.begin = begin;
-  shapes.end = end;
   const PotentialShapes potential_shapes(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;
   shapes.weight = rule.weight;

@@ -242,6 +242,8 @@ bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>&
                       : last_of_share(own, count, fraction * triangulation.n_global_active_cells(),
                                       communicator);
   }
+  if (marking == Marking::all)
+    last_marked = 0;
   const double left_to_part = std::pow(4., -(degree + 1.));
   bool is_changed = false;
   clear_flags(triangulation);
@@ -252,8 +254,6 @@ bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>&
     execute(triangulation, squares, left_to_part);
     is_changed = triangulation.n_global_active_cells() != n_before;
   }
-  if (marking == Marking::all)
-    last_marked = 0;
   flag(triangulation, squares, last_marked);
   prepare(triangulation);
   if (n_cells_to_come(triangulation) > most_cells) {

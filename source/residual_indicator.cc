@@ -1,8 +1,9 @@
 #include "residual_indicator.h"
 
-#include "radial_shapes.h"
+#include "parameters.h"
 #include "ring_mesh.h"
 #include "scene.h"
+#include "shape_products.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -17,6 +18,10 @@ using namespace dealii;
 
 namespace {
 
+/// On a line through a cell.
+constexpr unsigned int most_nodes = highest_degree + 1;
+using NodeValues = std::array<double, most_nodes>;
+
 /// How often parts of the certified error count that are what they are, since the squares of
 /// residuals are larger than those of the errors they stand for. With 2 certified errors are a
 /// tenth larger, with 50 the true ones are (doc/adaptivity.md).
@@ -24,7 +29,7 @@ constexpr double exact_parts_weight = 10;
 
 /// Shape functions on [0, 1] with two derivatives at some points.
 struct LineShapes {
-  std::vector<std::array<double, 9>> value, first, second;
+  std::vector<NodeValues> value, first, second;
 
   LineShapes(unsigned int degree, const std::vector<double>& points) {
     std::vector<double> all(3);
@@ -76,9 +81,12 @@ public:
       const auto& other = seam[3 - f];
       if (const auto same = other.find({begin, end}); same != other.end())
         return {1, {{f == 2 ? face->index() : same->second, -1}}};
+      // A process may know but one of them, and has then no cell beside this face.
       const auto lower = other.lower_bound({begin, begin});
-      if (lower != other.end() && lower->first.first == begin && lower->first.second < end)
-        return {2, {{lower->second, std::next(lower)->second}}};
+      const auto upper = lower == other.end() ? lower : std::next(lower);
+      if (upper != other.end() && lower->first.first == begin && lower->first.second < end &&
+          upper->first.first == lower->first.second)
+        return {2, {{lower->second, upper->second}}};
     }
     return {1, {{face->index(), -1}}};
   }
@@ -90,9 +98,9 @@ private:
 /// u on one cell by its nodal values, the radial index running fastest.
 struct CellField {
   unsigned int n;
-  std::array<double, 81> nodal;
+  std::array<double, most_nodes * most_nodes> nodal;
 
-  double sum(const std::array<double, 9>& radial, const std::array<double, 9>& angular) const {
+  double sum(const NodeValues& radial, const NodeValues& angular) const {
     double result = 0;
     for (unsigned int j = 0; j < n; ++j) {
       double row = 0;
@@ -137,7 +145,7 @@ Lengths lengths_of(const Rectangle& box, const Scene& scene) {
 double weighted_square(const FullMatrix<double>& residual, const Quadrature<1>& rule,
                        const Lengths& length) {
   const unsigned int n = rule.size();
-  std::array<double, 9> of_z = {}, of_r = {};
+  NodeValues of_z = {}, of_r = {};
   double mean = 0;
   for (unsigned int p = 0; p < n; ++p)
     for (unsigned int q = 0; q < n; ++q) {
@@ -202,7 +210,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
     angular_mode = 0;
     for (unsigned int p = 0; p < n; ++p) {
       // Along the line z = const: u and its first two derivatives by z at the radial nodes
-      std::array<double, 9> line, line_z, line_zz;
+      NodeValues line, line_z, line_zz;
       for (unsigned int i = 0; i < n; ++i) {
         line[i] = line_z[i] = line_zz[i] = 0;
         for (unsigned int j = 0; j < n; ++j) {
@@ -211,8 +219,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
           line_zz[i] += inside.second[p][j] / (h_z * h_z) * u.nodal[i + n * j];
         }
       }
-      const auto sum = [n](const std::array<double, 9>& radial,
-                           const std::array<double, 9>& on_line) {
+      const auto sum = [n](const NodeValues& radial, const NodeValues& on_line) {
         double result = 0;
         for (unsigned int i = 0; i < n; ++i)
           result += radial[i] * on_line[i];
@@ -297,7 +304,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
     const SurfaceFace& face = space.surface_faces()[*space.surface_face(cell)];
     const Rectangle box = rectangle_of(cell);
     const CellField u = gather(cell);
-    std::array<double, 9> pressure = {};
+    NodeValues pressure = {};
     unsigned int n_active = 0, n_contact = 0;
     for (unsigned int k = 0; k < n; ++k)
       if (const auto node = space.contact_number(face.nodes[k])) {

@@ -118,20 +118,29 @@ std::string count_text(double count) {
 
 } // namespace
 
-std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters,
-                                                 MPI_Comm communicator) {
+double count_unknowns(const Parameters& parameters) {
   const auto& mesh = parameters.mesh;
-  const double unknowns = std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) *
-                          mesh.radial_cells * mesh.angular_cells;
-  if (unknowns > mesh.most_unknowns)
+  return std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) * mesh.radial_cells *
+         mesh.angular_cells;
+}
+
+void check_mesh_size(const Parameters& parameters) {
+  const double unknowns = count_unknowns(parameters);
+  if (unknowns > parameters.mesh.most_unknowns)
     throw BadInput(refusal(parameters.settings, "Mesh", "Most unknowns",
                            "the mesh would have " + count_text(unknowns) +
                                " unknowns; allow more, or ask for fewer cells, refinements or a "
                                "lower degree"));
+}
+
+std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Parameters& parameters,
+                                                 MPI_Comm communicator) {
+  const auto& mesh = parameters.mesh;
+  check_mesh_size(parameters);
 
   // What the cells alone occupy at least, whatever is solved on them.
-  const double bytes = 200. * unknowns / (mesh.degree * mesh.degree);
-  require_memory(sum_on_machine(communicator, bytes / count_processes(communicator)), "the mesh");
+  const double bytes = 200. * count_unknowns(parameters) / (mesh.degree * mesh.degree);
+  require_memory(bytes / count_processes(communicator), "the mesh", communicator);
 
   constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
   auto triangulation = std::make_unique<Triangulation<2>>(smoothing);

@@ -21,6 +21,13 @@ namespace rollwave {
 
 using namespace dealii;
 
+void check_simulation(const Parameters& parameters, unsigned int n_processes) {
+  if (parameters.solver.kind == SolverKind::direct && n_processes > 1)
+    throw BadInput(refusal(parameters.settings, "Solver", "Kind",
+                           "the direct kind needs one process; on several use auto or iterative"));
+  check_mesh_size(parameters);
+}
+
 namespace {
 
 /// The pressure of the mesh before at the nodes of another, zero outside of the contact. Without
@@ -101,13 +108,10 @@ std::string residual_text(const Residuals& residuals) {
 /// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
 /// iterative kind a new preconditioner.
 bool begins_coarser(const Parameters& parameters, MPI_Comm communicator) {
-  const auto& mesh = parameters.mesh;
   constexpr double least_unknowns = 1e5;
   return (parameters.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
          parameters.contact.method == ContactMethod::active_set &&
-         std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) * mesh.radial_cells *
-                 mesh.angular_cells >
-             least_unknowns;
+         count_unknowns(parameters) > least_unknowns;
 }
 
 /// The scene on a mesh with a sixteenth of the cells, for its pressure.
@@ -118,7 +122,7 @@ Parameters coarser(Parameters parameters) {
       --mesh.global_refinements;
     else {
       mesh.radial_cells = (mesh.radial_cells + 1) / 2;
-      mesh.angular_cells = (mesh.angular_cells + 1) / 2;
+      mesh.angular_cells = std::max(3u, (mesh.angular_cells + 1) / 2);
     }
   mesh.adaptive_cycles = 0;
   mesh.wanted_relative_error = 0;
@@ -132,9 +136,7 @@ enum class Keep { nothing, everything };
 
 Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
              Solution previous, Keep keep) {
-  if (parameters.solver.kind == SolverKind::direct && !is_alone(communicator))
-    throw BadInput(refusal(parameters.settings, "Solver", "Kind",
-                           "the direct kind needs one process; on several use auto or iterative"));
+  check_simulation(parameters, count_processes(communicator));
   const auto& mesh = parameters.mesh;
   const bool certifies = parameters.certificate.error_bound;
   const bool wants_error = mesh.wanted_relative_error > 0;
@@ -176,6 +178,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
                       solution.system, result.work);
     measure(scene, *solution.space, on_mesh, result);
+    solution.system.is_kept = is_used_again;
     if (!is_used_again)
       solution.system.stiffness.solver.reset();
     if (certifies && (is_last || wants_error))

@@ -86,10 +86,6 @@ private:
   std::vector<std::string> names = {"displacement", "pressure"};
 };
 
-} // namespace
-
-namespace {
-
 DataOutBase::VtkFlags vtk_flags(const Solution& solution) {
   DataOutBase::VtkFlags flags;
   flags.write_higher_order_cells = solution.result.mesh.degree > 1;

@@ -20,6 +20,14 @@ std::string number_or_nan(const std::optional<double>& value) {
   return text.str();
 }
 
+/// For gnuplot, between single quotes.
+std::string text_for_gnuplot(const std::string& text) {
+  std::string doubled;
+  for (const char letter : text)
+    doubled += letter == '\'' ? "''" : std::string(1, letter);
+  return doubled;
+}
+
 } // namespace
 
 std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
@@ -46,10 +54,12 @@ std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const S
          << "'\nset ylabel '" << plot.y_label << "'\nplot ";
   for (unsigned int i = 0; i < curves.size(); ++i) {
     script << (i > 0 ? ", " : "") << "$curve" << i << " using 1:2 with linespoints linewidth 2 "
-           << "linetype " << i + 1 << " pointtype 7 pointsize 0.6 title '" << curves[i] << "'";
+           << "linetype " << i + 1 << " pointtype 7 pointsize 0.6 title '"
+           << text_for_gnuplot(curves[i]) << "'";
     if (plot.marks)
       script << ", $curve" << i << " using 1:3 with points linetype " << i + 1
-             << " pointtype 6 pointsize 1.4 linewidth 2 title '" << curves[i] << " published'";
+             << " pointtype 6 pointsize 1.4 linewidth 2 title '" << text_for_gnuplot(curves[i])
+             << " published'";
   }
   for (const double slope : plot.slopes)
     script << ", [" << x_low << ':' << x_high << "] " << y_high << " * (x / "

@@ -1,7 +1,5 @@
 #include "study_run.h"
 
-#include "memory.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -96,7 +94,7 @@ std::map<std::string, double> figures_of(const Result& result) {
                                            {"residual", result.residuals.largest()},
                                            {"round_off", result.residuals.round_off},
                                            {"seconds", result.work.total_seconds()},
-                                           {"peak_memory_mib", peak_memory_mib()}};
+                                           {"peak_memory_mib", result.peak_memory_mib}};
   for (const auto& [phase, seconds] : result.work.seconds())
     figures["seconds_" + phase] = seconds;
   if (result.errors) {
@@ -128,6 +126,8 @@ std::map<std::string, double> figures_of(const Result& result) {
 }
 
 std::string study_csv(const std::vector<StudyRun>& runs) {
+  if (runs.empty())
+    return {};
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
   if (!runs.front().scene.empty())

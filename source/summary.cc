@@ -1,6 +1,5 @@
 #include "summary.h"
 
-#include "memory.h"
 #include "version.h"
 
 #include <nlohmann/json.hpp>
@@ -104,7 +103,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
     json["seconds"][phase] = seconds;
   json["seconds"]["total"] = work.total_seconds();
 
-  json["peak_memory_mib"] = peak_memory_mib();
+  json["peak_memory_mib"] = result.peak_memory_mib;
   return json.dump(2) + "\n";
 }
 

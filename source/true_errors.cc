@@ -1,6 +1,6 @@
 #include "true_errors.h"
 
-#include "radial_shapes.h"
+#include "shape_products.h"
 
 #include <algorithm>
 #include <cmath>
