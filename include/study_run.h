@@ -37,7 +37,7 @@ std::map<std::string, double> figures_of(const Result& result);
 std::string study_csv(const std::vector<StudyRun>& runs);
 
 /// The runs that study_csv() wrote, without their settings and published steps; none when the file
-/// is not there or has other columns.
+/// is not there or has other columns, and none from the first row on that lacks fields.
 std::vector<StudyRun> read_study_csv(const std::string& text);
 
 } // namespace rollwave

@@ -173,14 +173,19 @@ std::vector<StudyRun> read_study_csv(const std::string& text) {
     StudyRun run;
     std::size_t end = line.size();
     for (auto name = figure_names().rbegin(); name != figure_names().rend(); ++name) {
-      const auto comma = line.rfind(',', end - 1);
+      const auto comma = end > 0 ? line.rfind(',', end - 1) : std::string::npos;
+      if (comma == std::string::npos)
+        return runs;
       const std::string field = line.substr(comma + 1, end - comma - 1);
       if (!field.empty())
         run.figures[*name] = std::strtod(field.c_str(), nullptr);
       end = comma;
     }
     for (std::string* const text : {&run.failure, &run.reference}) {
-      const auto quote = line.rfind('"', end - 2);
+      const auto quote =
+          end > 1 && line[end - 1] == '"' ? line.rfind('"', end - 2) : std::string::npos;
+      if (quote == std::string::npos || quote == 0)
+        return runs;
       *text = line.substr(quote + 1, end - quote - 2);
       end = quote - 1;
     }

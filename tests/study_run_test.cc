@@ -1,0 +1,56 @@
+#include "study_run.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace rollwave;
+
+namespace {
+
+std::vector<StudyRun> two_runs() {
+  StudyRun solved;
+  solved.scene = "thin, and fast";
+  solved.settings = {{"Road", "Contact zone", "4.5, 5", ""}};
+  solved.reference = "the semi-analytic solution";
+  solved.figures = {{"force", 0.1}, {"energy", 1. / 3}, {"dofs", 1234}};
+  StudyRun failed = solved;
+  failed.failure = "no \"way\",\nat all";
+  failed.figures = {{"dofs", 5}};
+  return {solved, failed};
+}
+
+TEST(StudyCsv, IsReadAsItWasWritten) {
+  const auto runs = two_runs();
+  const auto read = read_study_csv(study_csv(runs));
+  ASSERT_EQ(read.size(), 2u);
+  for (unsigned int i = 0; i < 2; ++i) {
+    EXPECT_EQ(read[i].reference, runs[i].reference);
+    EXPECT_EQ(read[i].figures, runs[i].figures);
+  }
+  EXPECT_TRUE(read[0].failure.empty());
+  EXPECT_EQ(read[1].failure, "no 'way', at all");
+  EXPECT_TRUE(read_study_csv(study_csv({})).empty());
+}
+
+// A row that lacks fields is no run, nor is what follows it.
+TEST(StudyCsv, MayLackAnything) {
+  const std::string whole = study_csv(two_runs());
+  const auto begin_of_row = whole.find('\n') + 1;
+  std::string without_begin = whole;
+  without_begin.erase(begin_of_row, whole.find("the semi") + 4 - begin_of_row);
+  EXPECT_TRUE(read_study_csv(without_begin).empty());
+
+  std::minstd_rand random(1);
+  for (unsigned int i = 0; i < 3000; ++i) {
+    std::string torn = whole;
+    const std::size_t at = random() % whole.size();
+    if (i % 2)
+      torn.resize(at);
+    else
+      torn.erase(at, 1 + random() % 200);
+    EXPECT_LE(read_study_csv(torn).size(), 2u);
+  }
+}
+
+} // namespace
