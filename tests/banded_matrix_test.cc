@@ -1,3 +1,4 @@
+// A banded matrix against the same matrix in full.
 #include "banded_matrix.h"
 
 #include <deal.II/lac/full_matrix.h>

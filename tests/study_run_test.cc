@@ -1,3 +1,4 @@
+// study.csv is read as it was written, and torn rows are no runs.
 #include "study_run.h"
 
 #include <gtest/gtest.h>
