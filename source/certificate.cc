@@ -269,11 +269,12 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
                     Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
-  const QGauss<1> gauss(scene.force ? degree + 2 : degree + 1), along_road(degree + 6);
   RadialShapesOfMesh shapes(scene, degree);
   std::optional<ForceColumns> columns;
   if (scene.force)
     columns.emplace(scene, 4);
+  const bool has_polynomials_in_z = !columns || columns->are_exact();
+  const QGauss<1> gauss(has_polynomials_in_z ? degree + 1 : degree + 2), along_road(degree + 6);
 
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
@@ -307,7 +308,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     if (!face) {
       for (unsigned int p = 0; p < gauss.size(); ++p)
         sums.add(integrator.on_line(lines[p], {0, 0, 0}), gauss.weight(p) * length);
-      if (!scene.force)
+      if (has_polynomials_in_z)
         sums.bound_squared += integrator.unseen_square();
     } else
       for (const auto& piece : trace.pieces(*face))
