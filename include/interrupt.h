@@ -11,6 +11,9 @@ namespace rollwave {
 /// scripts do in the background, stays ignored.
 void heed_interrupts();
 
+/// Lets this process note interrupts without telling them, since another one speaks.
+void note_interrupts_silently();
+
 /// What SIGINT and SIGTERM do when it is made they do again when it goes, whatever libraries change
 /// in between: PETSc, which deal.II starts with MPI, lets them end the program.
 class KeptInterrupts {

@@ -13,6 +13,7 @@ namespace {
 
 /// A signal handler can reach nothing but what is global.
 volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t is_silent = 0;
 
 constexpr int interrupts[] = {SIGINT, SIGTERM};
 
@@ -20,6 +21,8 @@ extern "C" void note_interrupt(int) {
   noted = 1;
   for (const int signal : interrupts)
     std::signal(signal, SIG_DFL);
+  if (is_silent)
+    return;
   constexpr std::string_view message =
       "\nrollwave: interrupted, ends after the step at hand; once more ends it at once\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
@@ -38,6 +41,10 @@ void heed_interrupts() {
     action.sa_flags = SA_RESTART; // reading and writing go on
     sigaction(signal, &action, nullptr);
   }
+}
+
+void note_interrupts_silently() {
+  is_silent = 1;
 }
 
 KeptInterrupts::KeptInterrupts() {

@@ -89,7 +89,8 @@ int main(int argc, char* argv[]) {
   const auto fail = [&](const std::string& kind, const std::string& message, int code) {
     processes.let_first_speak();
     std::cout << std::flush;
-    std::cerr << "rollwave: " << kind << message << std::endl;
+    // In one piece, since launchers mix what processes write.
+    std::cerr << "rollwave: " + kind + message + '\n' << std::flush;
     return processes.end(code);
   };
   try {

@@ -29,6 +29,8 @@ Processes::Processes(int& argc, char**& argv) {
   const KeptInterrupts kept;
   if (is_launched_with_others())
     mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(argc, argv, /*max_num_threads=*/1);
+  if (!is_first())
+    note_interrupts_silently();
 }
 
 Processes::~Processes() = default;
