@@ -32,9 +32,9 @@ void check_mesh_size(const Parameters& parameters);
 /**
  * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` rectangles in (r, z), equal but that
  * their heights grow geometrically near a small hub, refined `Mesh/Global refinements` times,
- * periodic over the seam. Where `Road/Contact zone` is given, its
- * ends are vertices, and the cells within and outside of it differ in length as they must: a zone
- * that ended inside of cells would cut the contact short at another place on every mesh.
+ * periodic over the seam. Where `Road/Contact zone` is given, its ends are vertices, and the cells
+ * within and outside of it differ in length as they must: a zone that ended inside of cells would
+ * cut the contact short at another place on every mesh.
  *
  * On several processes the mesh is p4est's, each of them having a part of it.
  *

@@ -100,8 +100,11 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
       const double r = point[0];
       const double z = std::fmod(point[1], 2 * numbers::PI);
       const double f = scene.force(r, z);
-      if (!std::isfinite(f) && refusal.empty())
-        refusal = not_finite_at(r * scene.unit, z);
+      if (!std::isfinite(f)) {
+        if (refusal.empty())
+          refusal = not_finite_at(r * scene.unit, z);
+        continue;
+      }
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
     }

@@ -1,7 +1,5 @@
 #include "banded_matrix.h"
 
-#include <algorithm>
-
 namespace rollwave {
 
 void BandedMatrix::clear(unsigned int i) {
