@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_DUAL_POTENTIAL_H
 #define ROLLWAVE_DUAL_POTENTIAL_H
 
+#include "edge_pressure.h"
 #include "force_columns.h"
 #include "radial_shapes.h"
 #include "ring_space.h"
@@ -14,15 +15,6 @@ namespace rollwave {
 
 struct Scene;
 class Work;
-
-/// A contact pressure on one edge, linear in the coordinate t from 0 at its begin to 1 at its end:
-/// lambda(t) = mean + slope (t - 1/2) >= 0.
-struct EdgePressure {
-  double mean;
-  double slope;
-
-  double operator()(double t) const { return mean + slope * (t - 0.5); }
-};
 
 /**
  * The potential psi of a flux tau that balances the force and a contact pressure lambda,

@@ -8,6 +8,8 @@
 
 namespace rollwave {
 
+struct Scene;
+
 /// Jumps of the normal derivative, deal.II's KellyErrorEstimator, for each active cell. It ignores
 /// alpha, the force and the contact; for comparison only.
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
@@ -26,6 +28,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * Where @p coarsens, four parts of a cell are first made one again if that would have less than
  * half of the squared indicator of the last cell marked, by the same rule.
  *
+ * With a cell that is flat beside the depth int alpha^(1/2) dr by which what varies over its length
+ * reaches, those of its level above and below are cut, as far as this reaches.
+ *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
  * and at corners as well. Cells of level 29 are not cut:
@@ -34,9 +39,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter, and
  *         none is coarsened
  */
-bool refine_mesh(dealii::Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                 Marking marking, double fraction, unsigned int degree, double most_cells,
-                 bool coarsens);
+bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
+                 const std::vector<double>& indicators, Marking marking, double fraction,
+                 unsigned int degree, double most_cells, bool coarsens);
 
 /// Whether there are cells that refine_mesh() cannot cut.
 bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);

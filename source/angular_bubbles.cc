@@ -45,7 +45,7 @@ double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wa
   for (unsigned int k = 0; k <= degree; ++k) {
     const double of_mode = (degree + k) % 2 ? -binomial * std::sqrt(2 * degree + 1.)
                                             : binomial * std::sqrt(2 * degree + 1.);
-    const double limit = std::max(0., pressure(1. * k / degree)) / -of_mode;
+    const double limit = pressure(1. * k / degree) / -of_mode;
     nearest = of_mode < 0 ? std::min(nearest, limit) : std::max(nearest, limit);
     binomial *= 1. * (degree - k) / (k + 1);
   }

@@ -2,6 +2,7 @@
 
 #include "angular_bubbles.h"
 #include "contact_free.h"
+#include "edge_pressure.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "scene.h"
@@ -19,34 +20,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-/// On each edge inside of the zone the linear pressure with the mean of the discrete one and the
-/// difference of its values at the vertices, as far as it then stays positive.
-std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& scene,
-                                         const ContactProblem& problem,
-                                         const ContactSolution& contact) {
-  const unsigned int degree = space.dof_handler().get_fe().degree;
-  const QGaussLobatto<1> lobatto(degree + 1);
-  std::vector<EdgePressure> pressures;
-  for (const SurfaceFace& face : space.surface_faces()) {
-    // A zone that ends within round-off of a vertex ends there.
-    const double tolerance = 1e-12;
-    if (face.begin < scene.zone_begin - tolerance || face.end > scene.zone_end + tolerance) {
-      pressures.push_back({0, 0});
-      continue;
-    }
-    const auto pressure = [&](unsigned int k) {
-      const auto node = space.contact_number(face.nodes[k]);
-      return node ? std::max(0., contact.state.force(*node) / problem.weight(*node)) : 0.;
-    };
-    double mean = 0;
-    for (unsigned int k = 0; k <= degree; ++k)
-      mean += lobatto.weight(k) * pressure(k);
-    const double slope = degree > 1 ? pressure(degree) - pressure(0) : 0.;
-    pressures.push_back({mean, std::clamp(slope, -2 * mean, 2 * mean)});
-  }
-  return pressures;
-}
 
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {

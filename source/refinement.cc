@@ -1,6 +1,7 @@
 #include "refinement.h"
 
 #include "processes.h"
+#include "scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/p4est_wrappers.h>
@@ -29,8 +30,9 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
 
 namespace {
 
-/// A cell that is longer than high by this factor counts as flat.
-constexpr double flat_cell = 8;
+/// How deep what changes its sign from one cell to the next reaches in int alpha^(1/2) dr, as a
+/// share of their length: to exp(-3 pi / 4), a tenth.
+constexpr double reach_of_length = 0.75;
 
 constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
 
@@ -81,39 +83,67 @@ double n_cells_to_come(const Triangulation<2>& triangulation) {
   return triangulation.n_global_active_cells() + 3. * count_flagged(triangulation);
 }
 
-/// Flags the cells above and below those that are flat and flagged, from hub to surface.
-void flag_columns(Triangulation<2>& triangulation) {
-  const auto is_flat = [](const Cell& cell) {
-    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
-    return cell->center()[0] * size[1] > flat_cell * size[0];
+/// Gives the cells next to those of a process what their own processes have for them.
+void exchange_values(const Triangulation<2>& triangulation, std::vector<double>& of_cells) {
+  if (is_alone(triangulation.get_communicator()))
+    return;
+  GridTools::exchange_cell_data_to_ghosts<double, Triangulation<2>>(
+      triangulation,
+      [&](const Cell& cell) -> std_cxx17::optional<double> {
+        return of_cells[cell->active_cell_index()];
+      },
+      [&](const Cell& cell, double value) { of_cells[cell->active_cell_index()] = value; });
+}
+
+/// Flags the cells of the same level above and below those that are flagged, as far as flagged
+/// cells reach. What varies in z like sin(k z) varies in r like exp(+-k int alpha^(1/2) dr); a
+/// trace that was finer at one end of flat cells than at the other would have to change within
+/// them, at a cost that grows with the square of length over height.
+void flag_columns(Triangulation<2>& triangulation, const Scene& scene) {
+  const MPI_Comm communicator = triangulation.get_communicator();
+  const auto depth = [&scene](const Cell& cell) {
+    const double height = cell->vertex(3)[0] - cell->vertex(0)[0];
+    return height * std::sqrt(std::max(0., scene.alpha(cell->center()[0])));
   };
-  unsigned int n_before;
-  do { // as often as a column passes from one process to another
-    n_before = count_flagged(triangulation);
-    exchange_flags(triangulation);
+  for (const unsigned int face : {0U, 1U}) {
+    std::vector<double> reach(triangulation.n_active_cells()); // beyond the cell
     for (const auto& cell : triangulation.active_cell_iterators())
-      if (!cell->is_artificial() && cell->refine_flag_set() && is_flat(cell))
-        for (const unsigned int face : {0U, 1U})
-          for (auto next = cell; is_flat(next) && !next->at_boundary(face) &&
-                                 next->neighbor(face)->is_active() &&
-                                 next->neighbor(face)->level() == cell->level() &&
-                                 !next->neighbor(face)->is_artificial();) {
-            next = next->neighbor(face);
-            next->set_refine_flag();
-          }
-  } while (!is_alone(triangulation.get_communicator()) && count_flagged(triangulation) != n_before);
+      if (cell->is_locally_owned() && cell->refine_flag_set())
+        reach[cell->active_cell_index()] =
+            reach_of_length * (cell->vertex(3)[1] - cell->vertex(0)[1]) - depth(cell);
+    bool is_settled;
+    do { // as often as a column passes from one process to another
+      is_settled = true;
+      exchange_values(triangulation, reach);
+      for (const auto& cell : triangulation.active_cell_iterators()) {
+        if (cell->is_artificial())
+          continue;
+        auto next = cell;
+        for (double left = reach[cell->active_cell_index()];
+             left > 0 && !next->at_boundary(face) && next->neighbor(face)->is_active() &&
+             next->neighbor(face)->level() == cell->level() &&
+             !next->neighbor(face)->is_artificial();) {
+          next = next->neighbor(face);
+          next->set_refine_flag();
+          left -= depth(next);
+          if (left <= reach[next->active_cell_index()])
+            break;
+          reach[next->active_cell_index()] = left;
+          is_settled = false;
+        }
+      }
+    } while (Utilities::MPI::min<int>(is_settled, communicator) == 0);
+  }
 }
 
 /// Flags the cells from the value @p last_marked on. Mirror images have the same indicator but for
-/// round-off, which shall not choose between them. Where cells are flat, all of a column are
-/// flagged: u and the dual potential hardly vary over the height of such a cell but for what its
-/// ends impose, and a trace that is finer at one end than at the other would have to change within
-/// it, at a cost that grows with the square of length over height.
-void flag(Triangulation<2>& triangulation, const Vector<double>& squares, double last_marked) {
+/// round-off, which shall not choose between them.
+void flag(Triangulation<2>& triangulation, const Scene& scene, const Vector<double>& squares,
+          double last_marked) {
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned() && squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked)
       cell->set_refine_flag();
-  flag_columns(triangulation);
+  flag_columns(triangulation, scene);
 }
 
 void clear_flags(Triangulation<2>& triangulation) {
@@ -173,8 +203,8 @@ void flag_too_fine(Triangulation<2>& triangulation, const Vector<double>& square
 /// Flags the cells with the largest values among those from @p last_marked on, so many that the
 /// mesh will have @p most_cells cells at most, or none when they would be too few to matter.
 /// Returns the value of the last.
-double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>& squares,
-                           double last_marked, double most_cells) {
+double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
+                           const Vector<double>& squares, double last_marked, double most_cells) {
   const MPI_Comm communicator = triangulation.get_communicator();
   const std::vector<double> own = own_squares(triangulation, squares);
   const double n_now = triangulation.n_global_active_cells();
@@ -190,7 +220,7 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Vector<double>
       return last_marked;
     last_marked = last_of_share(
         own, [](double) { return 1.; }, std::floor(n_marked), communicator);
-    flag(triangulation, squares, last_marked);
+    flag(triangulation, scene, squares, last_marked);
     prepare(triangulation);
     if (n_cells_to_come(triangulation) <= most_cells)
       return last_marked;
@@ -221,9 +251,9 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
 }
 
 /// Refines as refine_mesh(), without giving cells to other processes.
-bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                     Marking marking, double fraction, unsigned int degree, double most_cells,
-                     bool coarsens) {
+bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
+                     const std::vector<double>& indicators, Marking marking, double fraction,
+                     unsigned int degree, double most_cells, bool coarsens) {
   const MPI_Comm communicator = triangulation.get_communicator();
   Vector<double> squares(indicators.size());
   const double largest =
@@ -254,14 +284,14 @@ bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>&
     execute(triangulation, squares, left_to_part);
     is_changed = triangulation.n_global_active_cells() != n_before;
   }
-  flag(triangulation, squares, last_marked);
+  flag(triangulation, scene, squares, last_marked);
   prepare(triangulation);
   if (n_cells_to_come(triangulation) > most_cells) {
     if (marking == Marking::all) {
       clear_flags(triangulation);
       return is_changed;
     }
-    last_marked = flag_as_many_as_fit(triangulation, squares, last_marked, most_cells);
+    last_marked = flag_as_many_as_fit(triangulation, scene, squares, last_marked, most_cells);
   }
   if (count_flagged(triangulation) == 0)
     return is_changed;
@@ -271,6 +301,7 @@ bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>&
       if (cell->is_locally_owned() && cell->user_index() == 0 &&
           squares(cell->active_cell_index()) > last_marked)
         cell->set_refine_flag();
+    flag_columns(triangulation, scene);
     prepare(triangulation);
     if (count_flagged(triangulation) == 0 || n_cells_to_come(triangulation) > most_cells)
       break;
@@ -282,11 +313,11 @@ bool refine_in_place(Triangulation<2>& triangulation, const std::vector<double>&
 
 } // namespace
 
-bool refine_mesh(Triangulation<2>& triangulation, const std::vector<double>& indicators,
-                 Marking marking, double fraction, unsigned int degree, double most_cells,
-                 bool coarsens) {
-  const bool is_changed =
-      refine_in_place(triangulation, indicators, marking, fraction, degree, most_cells, coarsens);
+bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
+                 const std::vector<double>& indicators, Marking marking, double fraction,
+                 unsigned int degree, double most_cells, bool coarsens) {
+  const bool is_changed = refine_in_place(triangulation, scene, indicators, marking, fraction,
+                                          degree, most_cells, coarsens);
   if (auto* const distributed =
           dynamic_cast<parallel::distributed::Triangulation<2>*>(&triangulation);
       distributed && is_changed)

@@ -61,12 +61,12 @@ std::vector<double> indicate(Indicator indicator, const Scene& scene, const Mesh
 
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
 /// nothing is changed, when the mesh would get too large or no cell is marked.
-bool refine(const std::vector<double>& indicators, const Parameters& parameters, bool coarsens,
-            Solution& solution) {
+bool refine(const Scene& scene, const std::vector<double>& indicators, const Parameters& parameters,
+            bool coarsens, Solution& solution) {
   const Work::Phase phase(solution.result.work, "mesh");
   const auto& mesh = parameters.mesh;
   const double most_cells = mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
-  if (!refine_mesh(*solution.triangulation, indicators, mesh.marking, mesh.marked_fraction,
+  if (!refine_mesh(*solution.triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
                    mesh.degree, most_cells, coarsens))
     return false;
   solution.certificate.reset();
@@ -189,7 +189,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
         !result.shortfall.empty() || (!is_finished && is_interrupted(communicator));
     if (!is_finished && !result.is_interrupted) {
       const std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
-      if (refine(indicators, parameters, continues && cycle == 0, solution)) {
+      if (refine(scene, indicators, parameters, continues && cycle == 0, solution)) {
         double squared = 0;
         for (const double eta : indicators)
           squared += eta * eta;

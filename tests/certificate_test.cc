@@ -106,6 +106,42 @@ TEST(Certificate, HoldsForRandomScenes) {
   std::cout << n_checked << " scenes, largest effectivity " << worst << std::endl;
 }
 
+// Where all of the height answers to what happens on the surface.
+TEST(Certificate, IsSharpInThinRings) {
+  for (const double a : {0.9, 0.99, 0.999})
+    for (const double omega : {0., 0.9, 1.}) {
+      std::optional<ExactSolution> exact;
+      for (const int degree : {1, 2})
+        for (const double wanted : {0.03, 0.005}) {
+          const std::vector<std::string> settings = {"Cylinder/Inner radius=" + text(a),
+                                                     "Cylinder/Angular velocity=" + text(omega),
+                                                     "Road/Distance=" + text((1 + a) / 2),
+                                                     "Mesh/Degree=" + std::to_string(degree),
+                                                     "Mesh/Radial cells=2",
+                                                     "Mesh/Angular cells=120",
+                                                     "Mesh/Wanted relative error=" + text(wanted),
+                                                     "Mesh/Most unknowns=40000"};
+          SCOPED_TRACE(testing::PrintToString(settings));
+          const Parameters parameters = parameters_of(settings);
+          const Scene scene = make_scene(parameters);
+          if (!exact)
+            exact = find_exact_solution(scene, parameters);
+          ASSERT_TRUE(exact);
+          const Solution solution = simulate(scene, parameters);
+          EXPECT_EQ(solution.result.shortfall, "");
+          EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
+          EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
+          const TrueErrors errors =
+              measure_true_errors(*solution.space, solution.displacement, solution.result,
+                                  solution.certificate, exact_reference(*exact));
+          const bool is_fine_adaptive =
+              solution.result.cycles.size() > 1 && solution.result.mesh.dofs > 1000;
+          EXPECT_LE(*errors.effectivity, is_fine_adaptive ? 2.5 : 6)
+              << solution.result.mesh.dofs << " unknowns";
+        }
+    }
+}
+
 TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
   for (const double omega : {0., 0.6, 1.})
     for (const bool is_cut : {false, true}) {

@@ -140,13 +140,14 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
 // CellId and p4est have no room for more; the cells around are cut no further either.
 TEST(Stability, RefinementEndsAtTheFinestLevel) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
-  const auto mesh = make_ring_mesh(make_scene(parameters), parameters, MPI_COMM_SELF);
+  const Scene scene = make_scene(parameters);
+  const auto mesh = make_ring_mesh(scene, parameters, MPI_COMM_SELF);
   bool is_cut = true;
   for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
     std::vector<double> indicators;
     for (const auto& cell : mesh->active_cell_iterators())
       indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
-    is_cut = refine_mesh(*mesh, indicators, Marking::bulk, 0.5, 1, 1e6, /*coarsens=*/false);
+    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1, 1e6, /*coarsens=*/false);
   }
   EXPECT_FALSE(is_cut);
   EXPECT_EQ(mesh->n_levels(), 30);

@@ -1,0 +1,44 @@
+#ifndef ROLLWAVE_EDGE_PRESSURE_H
+#define ROLLWAVE_EDGE_PRESSURE_H
+
+#include <vector>
+
+namespace rollwave {
+
+class RingSpace;
+struct ContactProblem;
+struct ContactSolution;
+struct Scene;
+
+/// A contact pressure on one edge, linear in the coordinate t from 0 at its begin to 1 at its end:
+/// lambda(t) = mean + slope (t - 1/2).
+struct EdgePressure {
+  double mean;
+  double slope;
+
+  double operator()(double t) const { return mean + slope * (t - 0.5); }
+};
+
+/**
+ * The pressures of the certificate, one for each of RingSpace::surface_faces(); zero on edges that
+ * lie not wholly in the zone.
+ *
+ * Each has the mean of the discrete pressure and, but for degree 1, the difference of its values at
+ * the vertices, as far as it stays positive: for degree 2 with a multiple of AngularBubbles::mode()
+ * added, so that 3 t^2 mean is the limit.
+ *
+ * Where contact ends at a vertex, half of this node's force, more or less, would lie on the edge
+ * outside, under the gap. Let the pressure go on, in the straight line through the last two nodes
+ * in contact, to its root and, negative, beyond. The edge outside gets the multiple of (1 - t)^q
+ * nearest to that line in the mean, t counted from contact, and the edge inside the rest of the
+ * force; q is 0, 2, 1 for degrees 1, 2 and above. In rings that are so thin that the surface
+ * answers like an elastic foundation, -phi times its stiffness is the line, and that pressure is
+ * the best.
+ */
+std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& scene,
+                                         const ContactProblem& problem,
+                                         const ContactSolution& contact);
+
+} // namespace rollwave
+
+#endif
