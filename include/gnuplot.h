@@ -1,15 +1,29 @@
 #ifndef ROLLWAVE_GNUPLOT_H
 #define ROLLWAVE_GNUPLOT_H
 
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace rollwave {
 
-/// The SVG that gnuplot draws for @p script, which must not set a terminal; nullopt when gnuplot is
-/// not installed or refuses the script. @p width and @p height are in points.
-std::optional<std::string> draw_svg(const std::string& script, unsigned int width,
-                                    unsigned int height);
+/// gnuplot at work on a picture, in a process of its own, while this one goes on.
+class Drawing {
+public:
+  /// Starts with @p script, which must not set a terminal; @p width and @p height are in points.
+  Drawing(const std::string& script, unsigned int width, unsigned int height);
+
+  /// The picture as SVG, when it is finished; nullopt when gnuplot is not installed or refuses the
+  /// script, or the picture has been taken.
+  std::optional<std::string> take_svg();
+
+private:
+  struct Close {
+    void operator()(std::FILE* pipe) const { pclose(pipe); }
+  };
+  std::unique_ptr<std::FILE, Close> pipe;
+};
 
 } // namespace rollwave
 

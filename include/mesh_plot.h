@@ -1,17 +1,17 @@
 #ifndef ROLLWAVE_MESH_PLOT_H
 #define ROLLWAVE_MESH_PLOT_H
 
+#include "gnuplot.h"
 #include "scene.h"
 #include "solution.h"
 
 #include <optional>
-#include <string>
 
 namespace rollwave {
 
-/// The edges of the deformed cells in x and y, the whole ring and its contact enlarged, as SVG;
-/// nullopt when gnuplot cannot draw it.
-std::optional<std::string> plot_mesh(const Scene& scene, const Solution& solution);
+/// The edges of the deformed cells in x and y, the whole ring and its contact enlarged, on the
+/// first process.
+std::optional<Drawing> plot_mesh(const Scene& scene, const Solution& solution);
 
 } // namespace rollwave
 

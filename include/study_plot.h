@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_STUDY_PLOT_H
 #define ROLLWAVE_STUDY_PLOT_H
 
+#include "gnuplot.h"
 #include "study_run.h"
 
 #include <functional>
@@ -22,9 +23,8 @@ struct StudyPlot {
   std::vector<double> slopes; ///< expected powers of x, drawn as dashed lines
 };
 
-/// One curve for each choice of all keys but the one that varies fastest, as SVG; nullopt when
-/// gnuplot cannot draw it.
-std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot);
+/// One curve for each choice of all keys but the one that varies fastest.
+Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot);
 
 } // namespace rollwave
 

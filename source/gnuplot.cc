@@ -1,9 +1,7 @@
 #include "gnuplot.h"
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <unistd.h>
 
 namespace rollwave {
@@ -42,23 +40,24 @@ private:
 
 } // namespace
 
-std::optional<std::string> draw_svg(const std::string& script, unsigned int width,
-                                    unsigned int height) {
+Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
   const TemporaryFile file;
-  if (!file.write("set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-                  " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
-    return {};
-  // An interrupt is for this program, which still wants the picture of what it has.
-  FILE* const pipe =
-      popen(("trap '' INT TERM; exec gnuplot " + file.path() + " 2>/dev/null").c_str(), "r");
+  if (file.write("set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+                 " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
+    // An interrupt is for this program, which still wants the picture of what it has.
+    pipe.reset(
+        popen(("trap '' INT TERM; exec gnuplot " + file.path() + " 2>/dev/null").c_str(), "r"));
+}
+
+std::optional<std::string> Drawing::take_svg() {
   if (!pipe)
     return {};
   std::string svg;
   std::array<char, 65536> buffer;
   std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0)
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0)
     svg.append(buffer.data(), count);
-  if (pclose(pipe) != 0 || svg.empty())
+  if (pclose(pipe.release()) != 0 || svg.empty())
     return {};
   return svg;
 }

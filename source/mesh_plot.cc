@@ -1,6 +1,5 @@
 #include "mesh_plot.h"
 
-#include "gnuplot.h"
 #include "processes.h"
 
 #include <deal.II/grid/tria.h>
@@ -51,7 +50,7 @@ private:
 
 } // namespace
 
-std::optional<std::string> plot_mesh(const Scene& scene, const Solution& solution) {
+std::optional<Drawing> plot_mesh(const Scene& scene, const Solution& solution) {
   std::ostringstream edges;
   edges.precision(7);
   EdgeWriter write_edge(edges, solution);
@@ -90,8 +89,8 @@ set origin 0,0
          << lowest + 0.7 * width << "]\n"
          << "plot '$edges' with lines linewidth 0.5 linecolor rgb '#1f5fa8' notitle\n";
   if (process_number(solution.space->communicator()) > 0)
-    return std::string();
-  return draw_svg(script.str(), 760, 1100);
+    return {};
+  return Drawing(script.str(), 760, 1100);
 }
 
 } // namespace rollwave

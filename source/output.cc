@@ -91,6 +91,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
   };
   {
     const Work::Phase phase(work, "output");
+    std::vector<std::pair<std::string, Drawing>> drawings; // made while the files are written
+    if (parameters.wants(OutputFile::plot) && process == 0)
+      drawings.emplace_back("scene.svg", plot_scene(scene, parameters, solution.result));
+    if (parameters.wants(OutputFile::mesh))
+      if (auto drawing = plot_mesh(scene, solution))
+        drawings.emplace_back("mesh.svg", std::move(*drawing));
     if (parameters.wants(OutputFile::contact))
       add("contact.csv", contact_csv(to_lengths(solution.result, scene.unit)));
     if (parameters.wants(OutputFile::parameters)) {
@@ -123,17 +129,11 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       if (process == 0)
         remove_other_solutions(directory, written.files);
     }
-    const auto add_picture = [&](const std::string& name, const std::optional<std::string>& svg) {
-      if (svg)
+    for (auto& [name, drawing] : drawings)
+      if (const auto svg = drawing.take_svg())
         add(name, *svg);
       else
         written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
-    };
-    if (parameters.wants(OutputFile::plot))
-      add_picture("scene.svg",
-                  process > 0 ? std::string() : plot_scene(scene, parameters, solution.result));
-    if (parameters.wants(OutputFile::mesh))
-      add_picture("mesh.svg", plot_mesh(scene, solution));
   }
   solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary))

@@ -1,14 +1,11 @@
 #include "scene_plot.h"
 
-#include "gnuplot.h"
-
 #include <cmath>
 #include <sstream>
 
 namespace rollwave {
 
-std::optional<std::string> plot_scene(const Scene& scene, const Parameters& parameters,
-                                      const Result& result) {
+Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Result& result) {
   // Lengths are drawn in units of b, so that any scene fits the frame.
   const double b = scene.outer_radius;
   std::ostringstream script;
@@ -71,7 +68,7 @@ set grid
          << "plot '$pressure' using 1:2 with filledcurves y1=0 fillcolor rgb '#f3d9c4' notitle, "
             "'$pressure' using 1:2 with lines linewidth 2 linecolor rgb '#b3541e' "
             "title 'contact pressure'\n";
-  return draw_svg(script.str(), 760, 980);
+  return Drawing(script.str(), 760, 980);
 }
 
 } // namespace rollwave

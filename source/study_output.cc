@@ -200,7 +200,7 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     return written;
 
   const auto add_plot = [&](const std::string& name, const StudyPlot& plot) {
-    if (const auto svg = plot_study(runs, plot))
+    if (const auto svg = plot_study(runs, plot).take_svg())
       add(name, *svg);
     else
       written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");

@@ -1,7 +1,5 @@
 #include "study_plot.h"
 
-#include "gnuplot.h"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -30,7 +28,7 @@ std::string text_for_gnuplot(const std::string& text) {
 
 } // namespace
 
-std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
+Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
   std::ostringstream script;
   std::vector<std::string> curves;
   double x_low = 0, x_high = 0, y_high = 0;
@@ -66,7 +64,7 @@ std::optional<std::string> plot_study(const std::vector<StudyRun>& runs, const S
            << (slope < 0 ? x_low : x_high) << ")**(" << slope
            << ") with lines dashtype 2 linecolor rgb '#808080' title 'slope " << slope << "'";
   script << '\n';
-  return draw_svg(script.str(), 760, 560);
+  return Drawing(script.str(), 760, 560);
 }
 
 } // namespace rollwave
