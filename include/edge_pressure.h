@@ -6,7 +6,6 @@
 namespace rollwave {
 
 class RingSpace;
-struct ContactProblem;
 struct ContactSolution;
 struct Scene;
 
@@ -20,23 +19,21 @@ struct EdgePressure {
 };
 
 /**
- * The pressures of the certificate, one for each of RingSpace::surface_faces(); zero on edges that
- * lie not wholly in the zone.
+ * The pressures of the certificate, one for each of RingSpace::surface_faces(): zero on edges that
+ * lie not wholly in the zone; on the others their sum is the discrete contact force.
  *
  * Each has the mean of the discrete pressure and, but for degree 1, the difference of its values at
- * the vertices, as far as it stays positive: for degree 2 with a multiple of AngularBubbles::mode()
- * added, so that 3 t^2 mean is the limit.
+ * the vertices, at most 2 mean, for degree 2 3 mean: as far as lambda >= 0, for degree 2 with the
+ * multiple of AngularBubbles::mode() that makes it 3 t^2 mean at the limit.
  *
  * Where contact ends at a vertex, half of this node's force, more or less, would lie on the edge
  * outside, under the gap. Let the pressure go on, in the straight line through the last two nodes
  * in contact, to its root and, negative, beyond. The edge outside gets the multiple of (1 - t)^q
- * nearest to that line in the mean, t counted from contact, and the edge inside the rest of the
- * force; q is 0, 2, 1 for degrees 1, 2 and above. In rings that are so thin that the surface
- * answers like an elastic foundation, -phi times its stiffness is the line, and that pressure is
- * the best.
+ * nearest to that line in the mean square, t counted from contact, unless it had less, and the
+ * edge inside the rest of the force; q is 0, 2, 1 for degrees 1, 2 and above. In rings that are so
+ * thin that the surface answers like an elastic foundation the line is -phi times its stiffness.
  */
 std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& scene,
-                                         const ContactProblem& problem,
                                          const ContactSolution& contact);
 
 } // namespace rollwave

@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_GNUPLOT_H
 #define ROLLWAVE_GNUPLOT_H
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,10 +18,11 @@ public:
   std::optional<std::string> take_svg();
 
 private:
-  struct Close {
-    void operator()(std::FILE* pipe) const { pclose(pipe); }
+  struct Process;
+  struct End {
+    void operator()(Process* process) const;
   };
-  std::unique_ptr<std::FILE, Close> pipe;
+  std::unique_ptr<Process, End> process;
 };
 
 } // namespace rollwave

@@ -28,8 +28,8 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * Where @p coarsens, four parts of a cell are first made one again if that would have less than
  * half of the squared indicator of the last cell marked, by the same rule.
  *
- * With a cell that is flat beside the depth int alpha^(1/2) dr by which what varies over its length
- * reaches, those of its level above and below are cut, as far as this reaches.
+ * With a cell those of its level above and below are cut, as far as what varies over its length
+ * reaches.
  *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam

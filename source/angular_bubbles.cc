@@ -39,7 +39,7 @@ unsigned int carrier(unsigned int i, unsigned int n) {
 
 /// What is nearest to @p wanted among the m with lambda + m P >= 0 for sure: coefficients over
 /// Bernstein's polynomials B_k are positive, those of P are (-1)^(p + k) binomial(p, k) (2 p +
-/// 1)^(1/2), those of lambda lie on a line.
+/// 1)^(1/2), those of lambda lie on a line. There are such m for all that edge_pressures() returns.
 double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wanted) {
   double nearest = wanted, binomial = 1;
   for (unsigned int k = 0; k <= degree; ++k) {

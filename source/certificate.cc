@@ -251,7 +251,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
 
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
-  const auto pressures = edge_pressures(space, scene, problem, contact);
+  const auto pressures = edge_pressures(space, scene, contact);
   auto& dual = system.potential;
   if (!dual)
     dual = std::make_unique<DualPotential>(space, system.stiffness.kind);

@@ -14,17 +14,30 @@ using namespace dealii;
 
 namespace {
 
-/// The discrete pressure lambda_i = force / weight on the edges.
+/// Whether an edge lies wholly in the zone; one that ends within round-off of a vertex ends there.
+bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
+  constexpr double tolerance = 1e-12;
+  return face.begin >= scene.zone_begin - tolerance && face.end <= scene.zone_end + tolerance;
+}
+
+/// Nodal force over the node's share of the edges that lie in the zone.
 class DiscretePressure {
 public:
-  DiscretePressure(const RingSpace& space, const ContactProblem& problem,
-                   const ContactSolution& contact)
-      : space(space), problem(problem), contact(contact) {}
+  DiscretePressure(const RingSpace& space, const Scene& scene, const ContactSolution& contact)
+      : space(space), contact(contact), shares(space.contact_nodes().size()) {
+    const QGaussLobatto<1> lobatto(space.dof_handler().get_fe().degree + 1);
+    for (const SurfaceFace& face : space.surface_faces())
+      if (is_in_zone(face, scene))
+        for (unsigned int k = 0; k < face.nodes.size(); ++k)
+          if (const auto node = space.contact_number(face.nodes[k]))
+            shares[*node] += lobatto.weight(k) * space.outer_radius() * (face.end - face.begin);
+  }
 
   /// At the node @p k of an edge.
   double operator()(const SurfaceFace& face, unsigned int k) const {
     const auto node = space.contact_number(face.nodes[k]);
-    return node ? std::max(0., contact.state.force(*node) / problem.weight(*node)) : 0.;
+    return node && shares[*node] > 0 ? std::max(0., contact.state.force(*node) / shares[*node])
+                                     : 0.;
   }
 
   /// Whether the edge's only node in contact is the vertex @p k.
@@ -37,8 +50,8 @@ public:
 
 private:
   const RingSpace& space;
-  const ContactProblem& problem;
   const ContactSolution& contact;
+  std::vector<double> shares;
 };
 
 /// The power of t, on the edge where contact ends, that pressures of a degree take.
@@ -54,18 +67,15 @@ double mean_beyond(double value, double root, unsigned int q) {
 } // namespace
 
 std::vector<EdgePressure> edge_pressures(const RingSpace& space, const Scene& scene,
-                                         const ContactProblem& problem,
                                          const ContactSolution& contact) {
   const unsigned int degree = space.dof_handler().get_fe().degree, q = end_power(degree);
   const QGaussLobatto<1> lobatto(degree + 1);
-  const DiscretePressure pressure(space, problem, contact);
+  const DiscretePressure pressure(space, scene, contact);
   const std::vector<SurfaceFace>& faces = space.surface_faces();
 
   std::vector<EdgePressure> edges;
   for (const SurfaceFace& face : faces) {
-    // A zone that ends within round-off of a vertex ends there.
-    const double tolerance = 1e-12;
-    if (face.begin < scene.zone_begin - tolerance || face.end > scene.zone_end + tolerance) {
+    if (!is_in_zone(face, scene)) {
       edges.push_back({0, 0});
       continue;
     }

@@ -122,7 +122,7 @@ void flag_columns(Triangulation<2>& triangulation, const Scene& scene) {
         for (double left = reach[cell->active_cell_index()];
              left > 0 && !next->at_boundary(face) && next->neighbor(face)->is_active() &&
              next->neighbor(face)->level() == cell->level() &&
-             !next->neighbor(face)->is_artificial();) {
+             next->neighbor(face)->is_locally_owned();) {
           next = next->neighbor(face);
           next->set_refine_flag();
           left -= depth(next);
@@ -216,14 +216,17 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
     // Neighbours that must be cut too come on top of the marked cells.
     n_marked *= 0.98 * (most_cells - n_now) / (n_cells_to_come(triangulation) - n_now);
     clear_flags(triangulation);
-    if (n_marked < 1 || n_marked < 0.003 * n_now)
+    if (n_marked < 1)
       return last_marked;
     last_marked = last_of_share(
         own, [](double) { return 1.; }, std::floor(n_marked), communicator);
     flag(triangulation, scene, squares, last_marked);
     prepare(triangulation);
-    if (n_cells_to_come(triangulation) <= most_cells)
+    if (n_cells_to_come(triangulation) <= most_cells) {
+      if (count_flagged(triangulation) < 0.003 * n_now)
+        clear_flags(triangulation);
       return last_marked;
+    }
   }
 }
 

@@ -2,11 +2,14 @@
 // force, and not far above it.
 #include "certificate.h"
 
+#include "edge_pressure.h"
 #include "manufactured_scene.h"
+#include "mesh_solution.h"
 #include "potential_shapes.h"
 #include "test_scenes.h"
 #include "true_errors.h"
 #include "verification.h"
+#include "work.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <deal.II/base/numbers.h>
@@ -104,6 +107,39 @@ TEST(Certificate, HoldsForRandomScenes) {
     }
   }
   std::cout << n_checked << " scenes, largest effectivity " << worst << std::endl;
+}
+
+// Contact that ends freely, that the zone cuts short on one side, and in a thin ring.
+TEST(EdgePressures, CarryTheContactForce) {
+  const std::vector<std::vector<std::string>> scenes = {
+      {},
+      {"Road/Contact zone=4.5, 5.8"},
+      {"Cylinder/Inner radius=0.999", "Road/Distance=0.9995", "Cylinder/Angular velocity=1",
+       "Mesh/Radial cells=2"}};
+  for (const auto& settings : scenes)
+    for (unsigned int degree = 1; degree <= 4; ++degree) {
+      SCOPED_TRACE(testing::PrintToString(settings) + " degree " + std::to_string(degree));
+      const Parameters parameters =
+          with(parameters_of(settings), {"Mesh/Degree=" + std::to_string(degree)});
+      const Scene scene = make_scene(parameters);
+      const Discretisation ring(scene, parameters);
+      MeshSystem system;
+      Work work;
+      const MeshSolution solution = solve_on_mesh(scene, parameters, ring.space, {}, system, work);
+      double nodal = 0, sum = 0;
+      for (unsigned int i = 0; i < solution.problem.weight.size(); ++i)
+        nodal += std::max(0., solution.contact.state.force(i));
+      const auto pressures = edge_pressures(ring.space, scene, solution.contact);
+      for (unsigned int i = 0; i < pressures.size(); ++i) {
+        const SurfaceFace& face = ring.space.surface_faces()[i];
+        sum += scene.outer_radius * (face.end - face.begin) * pressures[i].mean;
+        EXPECT_GE(pressures[i].mean, 0);
+        const double limit = degree == 1 ? 0 : degree == 2 ? 3 : 2;
+        EXPECT_LE(std::abs(pressures[i].slope), limit * pressures[i].mean);
+      }
+      EXPECT_GT(sum, 0);
+      EXPECT_NEAR(sum / nodal, 1, 1e-13);
+    }
 }
 
 // Where all of the height answers to what happens on the surface.
