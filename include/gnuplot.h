@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_GNUPLOT_H
 #define ROLLWAVE_GNUPLOT_H
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,11 +19,10 @@ public:
   std::optional<std::string> take_svg();
 
 private:
-  struct Process;
-  struct End {
-    void operator()(Process* process) const;
+  struct Close {
+    void operator()(std::FILE* pipe) const { pclose(pipe); }
   };
-  std::unique_ptr<Process, End> process;
+  std::unique_ptr<std::FILE, Close> pipe;
 };
 
 } // namespace rollwave

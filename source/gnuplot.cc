@@ -1,10 +1,9 @@
 #include "gnuplot.h"
 
 #include <array>
-#include <cstdio>
 #include <cstdlib>
+#include <fcntl.h>
 #include <unistd.h>
-#include <utility>
 
 namespace rollwave {
 
@@ -33,16 +32,6 @@ public:
                                   static_cast<ssize_t>(content.size());
   }
 
-  /// What is in the file, from its begin.
-  std::string content() const {
-    std::string text;
-    std::array<char, 65536> buffer;
-    ssize_t count = 0;
-    while ((count = pread(descriptor, buffer.data(), buffer.size(), text.size())) > 0)
-      text.append(buffer.data(), count);
-    return text;
-  }
-
   /// Where processes that this one starts find it.
   std::string path() const { return "/dev/fd/" + std::to_string(descriptor); }
 
@@ -52,37 +41,29 @@ private:
 
 } // namespace
 
-/// A pipe for the picture would hold gnuplot up when full.
-struct Drawing::Process {
-  TemporaryFile script, svg;
-  std::FILE* pipe = nullptr;
-
-  /// Whether gnuplot has drawn, when it has ended.
-  bool end() { return pipe && pclose(std::exchange(pipe, nullptr)) == 0; }
-};
-
-void Drawing::End::operator()(Process* process) const {
-  process->end();
-  delete process;
-}
-
-Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height)
-    : process(new Process) {
-  if (process->script.write("set terminal svg size " + std::to_string(width) + "," +
-                            std::to_string(height) +
-                            " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
+Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
+  const TemporaryFile file;
+  if (file.write("set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
+                 " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
     // An interrupt is for this program, which still wants the picture of what it has.
-    process->pipe = popen(("trap '' INT TERM; exec gnuplot " + process->script.path() + " >" +
-                           process->svg.path() + " 2>/dev/null")
-                              .c_str(),
-                          "r");
+    pipe.reset(
+        popen(("trap '' INT TERM; exec gnuplot " + file.path() + " 2>/dev/null").c_str(), "r"));
+  // A full pipe would hold gnuplot up; a file instead could be cut short where the disk is full,
+  // which gnuplot does not tell.
+  constexpr int most_without_privilege = 1 << 20;
+  if (pipe)
+    fcntl(fileno(pipe.get()), F_SETPIPE_SZ, most_without_privilege);
 }
 
 std::optional<std::string> Drawing::take_svg() {
-  if (!process->end())
+  if (!pipe)
     return {};
-  std::string svg = process->svg.content();
-  if (svg.empty())
+  std::string svg;
+  std::array<char, 65536> buffer;
+  std::size_t count = 0;
+  while ((count = std::fread(buffer.data(), 1, buffer.size(), pipe.get())) > 0)
+    svg.append(buffer.data(), count);
+  if (pclose(pipe.release()) != 0 || svg.empty())
     return {};
   return svg;
 }
