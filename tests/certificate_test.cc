@@ -57,7 +57,7 @@ std::string text(double value) {
 TEST(Certificate, HoldsForRandomScenes) {
   Draw draw;
   int n_checked = 0;
-  double worst = 0;
+  double worst = 0, worst_on_fine_adaptive = 0;
   while (n_checked < n_random_scenes()) {
     const double b = draw.one_of<double>({1, 0.3, 7});
     const double a = b * draw.number(0.1, 0.95);
@@ -104,9 +104,13 @@ TEST(Certificate, HoldsForRandomScenes) {
       EXPECT_LE(*errors.effectivity, is_fine_adaptive ? 2.5 : 6)
           << solution.result.mesh.dofs << " unknowns";
       worst = std::max(worst, *errors.effectivity);
+      if (is_fine_adaptive)
+        worst_on_fine_adaptive = std::max(worst_on_fine_adaptive, *errors.effectivity);
     }
   }
-  std::cout << n_checked << " scenes, largest effectivity " << worst << std::endl;
+  std::cout << n_checked << " scenes, largest effectivity " << worst
+            << ", on adaptive meshes with more than "
+            << "1000 unknowns " << worst_on_fine_adaptive << std::endl;
 }
 
 // Contact that ends freely, that the zone cuts short on one side, and in a thin ring.
