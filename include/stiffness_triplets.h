@@ -23,6 +23,7 @@ public:
   TripletAssembler(const RingSpace& space, const dealii::AffineConstraints<double>& constraints,
                    const std::vector<int>& unknown_of_dof);
 
+  /// @p cell_matrix is symmetric.
   void add(const std::vector<dealii::types::global_dof_index>& dofs,
            const dealii::FullMatrix<double>& cell_matrix);
 
@@ -31,6 +32,7 @@ public:
 private:
   const dealii::AffineConstraints<double>& constraints;
   const std::vector<int>& unknown_of_dof;
+  std::vector<int> unknowns; ///< of the cell's degrees of freedom
   std::vector<std::vector<std::pair<int, double>>> expansion;
 };
 

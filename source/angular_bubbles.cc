@@ -124,17 +124,23 @@ public:
 
   /// Prepares precondition(), when all columns are there.
   void factorise() {
-    std::vector<double> diagonal(places.size());
-    for (unsigned int row = 0; row < places.size(); ++row)
-      diagonal[row] = matrix(row, 0);
-    const std::vector<double> whole_diagonal = rows_of(add_up(diagonal));
     inverse = matrix;
-    for (const unsigned int row : cuts) {
-      inverse.clear(row);
-      inverse(row, 0) = 2 * whole_diagonal[row]; // the other process adds as much
+    is_whole = Utilities::MPI::sum(cuts.size(), zero.get_mpi_communicator()) == 0;
+    if (!is_whole) {
+      std::vector<double> diagonal(places.size());
+      for (unsigned int row = 0; row < places.size(); ++row)
+        diagonal[row] = matrix(row, 0);
+      const std::vector<double> whole_diagonal = rows_of(add_up(diagonal));
+      for (const unsigned int row : cuts) {
+        inverse.clear(row);
+        inverse(row, 0) = 2 * whole_diagonal[row]; // the other process adds as much
+      }
     }
     inverse.factorise();
   }
+
+  /// The minimiser for a load, to 1e-8 of it where columns are cut.
+  FieldVector solve(const FieldVector& load) const;
 
   void vmult(FieldVector& result, const FieldVector& g) const {
     result = add_up(matrix.multiply(rows_of(g)));
@@ -162,6 +168,7 @@ private:
   const unsigned int degree;
   std::vector<unsigned int> places; ///< of the rows
   std::vector<unsigned int> cuts;
+  bool is_whole = true; ///< no process has cuts
   BandedMatrix matrix, inverse;
 };
 
@@ -171,12 +178,14 @@ struct ColumnPreconditioner {
   void vmult(FieldVector& result, const FieldVector& g) const { form.precondition(result, g); }
 };
 
-FieldVector solve(const ColumnForm& form, const FieldVector& load) {
-  FieldVector g = load;
-  g = 0;
-  // One step where no column is cut.
-  IterationNumberControl control(100, 1e-8 * load.l2_norm());
-  SolverCG<FieldVector>(control).solve(form, g, load, ColumnPreconditioner{form});
+FieldVector ColumnForm::solve(const FieldVector& load) const {
+  FieldVector g = zero;
+  if (is_whole)
+    precondition(g, load);
+  else {
+    IterationNumberControl control(100, 1e-8 * load.l2_norm());
+    SolverCG<FieldVector>(control).solve(*this, g, load, ColumnPreconditioner{*this});
+  }
   return g;
 }
 
@@ -312,7 +321,7 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
   ColumnAssembler assembler(space, scene, shapes, potential, pressures, columns);
   ColumnForm& form = assembler.form;
   const FieldVector load = assembler.load();
-  field = solve(form, load);
+  field = form.solve(load);
 
   // Of a convex function of each column the least with a bound of one value has that value at the
   // bound, and the rest as is best then.
@@ -331,7 +340,7 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
     form.fix(row);
   }
   residual -= form.add_up(excess);
-  field += solve(form, residual);
+  field += form.solve(residual);
   field.update_ghost_values();
 }
 

@@ -39,8 +39,8 @@ ShapeProducts radial_products(const Scene& scene,
       shapes[i].value((r - begin) / height, shape[i]);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j) {
-        products.stiffness(i, j) += radial * (shape[i][1] / height) * (shape[j][1] / height);
-        products.mass(i, j) += angular * shape[i][0] * shape[j][0];
+        products.stiffness(i, j) += radial * ((shape[i][1] / height) * (shape[j][1] / height));
+        products.mass(i, j) += angular * (shape[i][0] * shape[j][0]);
       }
   }
   return products;

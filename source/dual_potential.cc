@@ -133,6 +133,8 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       angular_derivative(p, j) = both[1];
     }
 
+  // A uniform force does no work: int psi_z dz = 0 for every periodic psi.
+  const bool has_load = columns && !columns->are_exact();
   FullMatrix<double> cell_matrix(n * n);
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n), cell_lift(n * n);
@@ -146,7 +148,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       cell_lift(i) = lift(ordered[i]);
     }
     // Only cells at the surface and the seam feel the values prescribed there.
-    if (!columns && cell_lift.all_zero())
+    if (!has_load && cell_lift.all_zero())
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const RadialShapes& radial = shapes.on(low[0], high[0]);
@@ -154,7 +156,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
     tensor_matrix(radial.products, reference, length, cell_matrix);
     cell_matrix.vmult(cell_vector, cell_lift);
     cell_vector *= -1;
-    if (columns)
+    if (has_load)
       for (unsigned int p = 0; p < gauss.size(); ++p) {
         const auto& column = columns->at(low[1] + length * gauss.point(p)[0]);
         for (unsigned int q = 0; q < radial.r.size(); ++q) {

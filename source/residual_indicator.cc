@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace rollwave {
 
@@ -59,6 +60,8 @@ std::vector<double> mapped(const std::vector<Point<1>>& points, double begin, do
 class Lines {
 public:
   explicit Lines(const RingSpace& space) {
+    const auto& mesh = space.dof_handler().get_triangulation();
+    has_one_level = mesh.n_active_cells() == mesh.n_cells(mesh.n_levels() - 1);
     for (const auto& cell : space.dof_handler().active_cell_iterators())
       for (const unsigned int f : {2U, 3U})
         if (!cell->is_artificial() && cell->at_boundary(f))
@@ -74,9 +77,9 @@ public:
 
   Parts parts(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) const {
     const auto face = cell->face(f);
-    if (face->has_children())
+    if (!has_one_level && face->has_children())
       return {2, {{face->child_index(0), face->child_index(1)}}};
-    if (f >= 2 && face->at_boundary()) {
+    if (f >= 2 && cell->neighbor_index(f) < 0) {
       const double begin = face->vertex(0)[0], end = face->vertex(1)[0];
       const auto& other = seam[3 - f];
       if (const auto same = other.find({begin, end}); same != other.end())
@@ -92,6 +95,7 @@ public:
   }
 
 private:
+  bool has_one_level; ///< and no hanging nodes
   std::array<std::map<std::pair<double, double>, int>, 2> seam;
 };
 
@@ -203,8 +207,13 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       continue;
     const Rectangle box = rectangle_of(cell);
     const CellField u = gather(cell);
-    const double h_r = box.height(), h_z = box.length();
+    const double h_r = box.height(), h_z = box.length(), per_r = 1 / h_r, per_z = 1 / h_z;
     const Lengths length = lengths[cell->active_cell_index()] = lengths_of(box, scene);
+    NodeValues alpha_r; // at the points of the rule
+    for (unsigned int q = 0; q < n; ++q) {
+      const double r = box.r0 + h_r * points[q][0];
+      alpha_r[q] = scene.alpha(r) * r;
+    }
 
     radial_mode = 0;
     angular_mode = 0;
@@ -215,9 +224,11 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
         line[i] = line_z[i] = line_zz[i] = 0;
         for (unsigned int j = 0; j < n; ++j) {
           line[i] += inside.value[p][j] * u.nodal[i + n * j];
-          line_z[i] += inside.first[p][j] / h_z * u.nodal[i + n * j];
-          line_zz[i] += inside.second[p][j] / (h_z * h_z) * u.nodal[i + n * j];
+          line_z[i] += inside.first[p][j] * u.nodal[i + n * j];
+          line_zz[i] += inside.second[p][j] * u.nodal[i + n * j];
         }
+        line_z[i] *= per_z;
+        line_zz[i] *= per_z * per_z;
       }
       const auto sum = [n](const NodeValues& radial, const NodeValues& on_line) {
         double result = 0;
@@ -227,11 +238,11 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       };
       for (unsigned int q = 0; q < n; ++q) {
         const double r = box.r0 + h_r * points[q][0];
-        const double u_r = sum(inside.first[q], line) / h_r;
+        const double u_r = sum(inside.first[q], line) * per_r;
         residual(p, q) = u_r;
         if (degree > 1)
-          residual(p, q) += r * (sum(inside.second[q], line) / (h_r * h_r) +
-                                 scene.alpha(r) * sum(inside.value[q], line_zz));
+          residual(p, q) += r * sum(inside.second[q], line) * per_r * per_r +
+                            alpha_r[q] * sum(inside.value[q], line_zz);
         if (scene.force)
           residual(p, q) +=
               r * scene.force(r, std::fmod(box.z0 + h_z * points[p][0], 2 * numbers::PI));
@@ -239,12 +250,11 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
         angular_mode(p) += highest_mode[q] * sum(inside.value[q], line_z);
       }
     }
-    const double middle = (box.r0 + box.r1) / 2;
+    const double middle = (box.r0 + box.r1) / 2, alpha = scene.alpha(middle);
     double unbalanced = 0;
     for (unsigned int q = 0; q < n; ++q)
       unbalanced += gauss.weight(q) * middle *
-                    (radial_mode(q) * radial_mode(q) +
-                     scene.alpha(middle) * angular_mode(q) * angular_mode(q));
+                    (radial_mode(q) * radial_mode(q) + alpha * angular_mode(q) * angular_mode(q));
     squares[cell->active_cell_index()] =
         h_r * h_z * (weighted_square(residual, gauss, length) + exact_parts_weight * unbalanced);
 
@@ -259,11 +269,11 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
         for (unsigned int q = 0; q < n; ++q) {
           double flux;
           if (f < 2)
-            flux = (side == 0 ? box.r0 : box.r1) * u.sum(ends.first[side], along.value[q]) / h_r;
+            flux = (side == 0 ? box.r0 : box.r1) * u.sum(ends.first[side], along.value[q]) * per_r;
           else {
-            const double t = parts.count == 1 ? points[q][0] : (part + points[q][0]) / 2;
-            const double r = box.r0 + h_r * t;
-            flux = r * scene.alpha(r) * u.sum(along.value[q], ends.first[side]) / h_z;
+            const double r = box.r0 + h_r * (part + points[q][0]) / 2;
+            flux = (parts.count == 1 ? alpha_r[q] : r * scene.alpha(r)) *
+                   u.sum(along.value[q], ends.first[side]) * per_z;
           }
           jump[parts.lines[part] * n + q] += sign * flux;
         }
@@ -271,29 +281,36 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
     }
   }
 
+  // The squares of the mean of the jump on each line, and of what is left of the jump
+  std::vector<std::pair<double, double>> jump_squares(triangulation.n_raw_lines());
+  for (unsigned int line = 0; line < jump_squares.size(); ++line) {
+    const double* const values = &jump[line * n];
+    double mean = 0, deviation = 0;
+    for (unsigned int q = 0; q < n; ++q)
+      mean += gauss.weight(q) * values[q];
+    for (unsigned int q = 0; q < n; ++q)
+      deviation += gauss.weight(q) * (values[q] - mean) * (values[q] - mean);
+    jump_squares[line] = {mean * mean, deviation};
+  }
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    double& square = squares[cell->active_cell_index()];
     if (!cell->is_locally_owned()) {
-      squares[cell->active_cell_index()] = 0;
+      square = 0;
       continue;
     }
     const Rectangle box = rectangle_of(cell);
     const Lengths length = lengths[cell->active_cell_index()];
+    const double slenderness = box.length() / box.height();
     for (const unsigned int f : cell->face_indices()) {
       if (f < 2 && cell->at_boundary(f))
         continue;
       const auto parts = lines.parts(cell, f);
-      const double across = f < 2 ? box.height() : box.length();
-      const double along = (f < 2 ? box.length() : box.height()) / parts.count;
+      double sum = 0;
       for (unsigned int part = 0; part < parts.count; ++part) {
-        double mean = 0, deviation = 0;
-        for (unsigned int q = 0; q < n; ++q)
-          mean += gauss.weight(q) * jump[parts.lines[part] * n + q];
-        for (unsigned int q = 0; q < n; ++q)
-          deviation += gauss.weight(q) * std::pow(jump[parts.lines[part] * n + q] - mean, 2);
-        squares[cell->active_cell_index()] +=
-            along / (2 * across) *
-            ((f < 2 ? length.radial : length.angular) * mean * mean + length.both() * deviation);
+        const auto& [mean, deviation] = jump_squares[parts.lines[part]];
+        sum += (f < 2 ? length.radial : length.angular) * mean + length.both() * deviation;
       }
+      square += (f < 2 ? slenderness : 1 / slenderness) / (2 * parts.count) * sum;
     }
   }
 

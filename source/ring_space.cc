@@ -143,7 +143,7 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
 
 std::optional<unsigned int>
 RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
-  if (!cell->at_boundary(1))
+  if (cell->neighbor_index(1) >= 0) // quicker than at_boundary(), and asked for every cell
     return {};
   return face_from.at(cell->vertex(1)[1]);
 }

@@ -31,6 +31,7 @@ TripletAssembler::TripletAssembler(const RingSpace& space,
                                    const AffineConstraints<double>& constraints,
                                    const std::vector<int>& unknown_of_dof)
     : constraints(constraints), unknown_of_dof(unknown_of_dof),
+      unknowns(space.dof_handler().get_fe().n_dofs_per_cell()),
       expansion(space.dof_handler().get_fe().n_dofs_per_cell()) {
   const std::size_t expected = space.dof_handler().get_triangulation().n_active_cells() *
                                (expansion.size() * (expansion.size() + 1) / 2);
@@ -41,10 +42,22 @@ TripletAssembler::TripletAssembler(const RingSpace& space,
 
 void TripletAssembler::add(const std::vector<types::global_dof_index>& dofs,
                            const FullMatrix<double>& cell_matrix) {
+  bool is_free = true;
+  for (unsigned int i = 0; i < dofs.size(); ++i) {
+    unknowns[i] = unknown_of_dof[dofs[i]];
+    is_free = is_free && unknowns[i] >= 0;
+  }
+  if (is_free) { // as most cells are
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        triplets.add(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j]),
+                     cell_matrix(i, j));
+    return;
+  }
   for (unsigned int i = 0; i < dofs.size(); ++i) {
     expansion[i].clear();
-    if (unknown_of_dof[dofs[i]] >= 0)
-      expansion[i].emplace_back(unknown_of_dof[dofs[i]], 1.);
+    if (unknowns[i] >= 0)
+      expansion[i].emplace_back(unknowns[i], 1.);
     else
       for (const auto& [dof, weight] : *constraints.get_constraint_entries(dofs[i]))
         expansion[i].emplace_back(unknown_of_dof[dof], weight);
