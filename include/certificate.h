@@ -34,7 +34,8 @@ struct MeshSystem;
  *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   |w|^2 = a(w, w)
  *
  * gives a(v - u, v - u)^(1/2) <= C delta + (C^2 delta^2 + eta^2)^(1/2), and the bounds of J open
- * accordingly.
+ * accordingly. Of G, too, the rules along z see an interpolant only: eta grows by the norm of what
+ * they miss, (int (G - G_h)^2 / r dr dz)^(1/2), taken on finer points as well.
  *
  * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
  * road with degree + 6 points: the bound assumes that these resolve phi, and that ||f - f_h|| is
