@@ -1,5 +1,6 @@
 #include "memory.h"
 
+#include "control_group.h"
 #include "errors.h"
 #include "processes.h"
 
@@ -25,15 +26,17 @@ constexpr double mebibyte = 1024. * 1024;
 /// What libraries allocate besides, most of them without a way to tell that they could not.
 constexpr double libraries_bytes = 64 * mebibyte;
 
-/// The bytes that the machine can give without taking them from others, if known.
+/// The bytes that the machine, or what a batch system gives of it, has left without taking them
+/// from others, if known.
 double available_memory() {
+  double available = memory_of_control_groups();
   std::ifstream meminfo("/proc/meminfo");
   std::string name, unit;
   double kibibytes = 0;
   while (meminfo >> name >> kibibytes && std::getline(meminfo, unit))
     if (name == "MemAvailable:")
-      return 1024 * kibibytes;
-  return std::numeric_limits<double>::infinity();
+      available = std::min(available, 1024 * kibibytes);
+  return available;
 }
 
 } // namespace
