@@ -37,7 +37,8 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
 }
 
 void DirectSolver::factorise(const Scene& scene) {
-  if (!cholesky)
+  const bool is_first = !cholesky; // later factors take the place of the one before
+  if (is_first)
     number_unknowns(scene);
   const unsigned int m = places.size();
   angular_velocity.reset(); // until the factor is there
@@ -50,14 +51,16 @@ void DirectSolver::factorise(const Scene& scene) {
       ++work->stiffness_assemblies;
     }
     const Work::Phase phase(*work, "ordering");
-    if (!cholesky)
+    if (is_first)
       cholesky = std::make_unique<SparseCholesky>(space.n_unknowns());
     if (cholesky->set_matrix(triplets))
       ++work->orderings;
   }
   const Work::Phase phase(*work, "factorisation");
-  require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
-                 "the factor of the stiffness matrix with " + std::to_string(m) + " contact nodes");
+  if (is_first)
+    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
+                   "the factor of the stiffness matrix with " + std::to_string(m) +
+                       " contact nodes");
   cholesky->factorise();
   ++work->factorisations;
   schur = std::make_unique<SchurComplement>(cholesky->trailing_factor(m));

@@ -35,6 +35,16 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters,
                        const std::string& value) {
     settings.push_back({section, key, value, "reference of the study"});
   };
+  // Begun on a mesh that leaves room to refine.
+  auto [radial_cells, angular_cells] =
+      std::pair(parameters.mesh.radial_cells, parameters.mesh.angular_cells);
+  while (16. * radial_cells * angular_cells > parameters.study.reference_unknowns &&
+         angular_cells > 24) {
+    radial_cells = (radial_cells + 1) / 2;
+    angular_cells = (angular_cells + 1) / 2;
+  }
+  set("Mesh", "Radial cells", std::to_string(radial_cells));
+  set("Mesh", "Angular cells", std::to_string(angular_cells));
   set("Mesh", "Degree", "2");
   set("Mesh", "Global refinements", "0");
   set("Mesh", "Adaptive cycles", "1000");
@@ -44,6 +54,7 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters,
   set("Mesh", "Most unknowns", std::to_string(parameters.study.reference_unknowns));
   set("Contact", "Method", "active set");
   set("Certificate", "Error bound", "true");
+  set("Certificate", "Load bounds", "false");
   const Solution solution = simulate(scene, read_parameters(settings), communicator);
   if (solution.result.is_interrupted)
     throw Interrupted(solution.result.shortfall);
@@ -104,17 +115,17 @@ public:
     const MeshKey key = mesh_key(parameters);
     Solution previous;
     if (last_key == key)
-      previous = std::move(solution);
-    solution = {};
+      previous = std::move(*solution);
+    solution.reset(); // assignment would delete the mesh under what lives on it
     last_key.reset(); // a run that fails leaves nothing
     const auto entry = shared.find(key);
     if (entry == shared.end() || entry->second.n_runs == 1)
-      return solution = simulate(scene, parameters, processes);
+      return solution.emplace(simulate(scene, parameters, processes));
     scene.zone_begin = entry->second.zone_begin;
     scene.zone_end = entry->second.zone_end;
-    solution = simulate_next(scene, parameters, std::move(previous), processes);
+    solution.emplace(simulate_next(scene, parameters, std::move(previous), processes));
     last_key = key;
-    return solution;
+    return *solution;
   }
 
   void forget() { last_key.reset(); }
@@ -129,7 +140,7 @@ private:
   const MPI_Comm processes;
   std::map<MeshKey, Shared> shared;
   std::optional<MeshKey> last_key;
-  Solution solution;
+  std::optional<Solution> solution;
 };
 
 void solve(const Parameters& parameters, Sweep& sweep, References& references, StudyRun& run) {
@@ -138,15 +149,19 @@ void solve(const Parameters& parameters, Sweep& sweep, References& references, S
   Result& result = solution.result;
   if (result.is_interrupted)
     throw Interrupted(result.shortfall);
+  const auto note = [&] {
+    result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
+    run.figures = figures_of(to_lengths(result, scene.unit));
+    run.failure = result.shortfall;
+  };
+  note(); // what stays where no reference can be made
   if (parameters.study.true_errors) {
     const Reference& reference = references.find(scene, parameters);
     result.errors = measure_true_errors(*solution.space, solution.displacement, result,
                                         solution.certificate, reference);
     run.reference = reference.name;
+    note();
   }
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
-  run.figures = figures_of(to_lengths(result, scene.unit));
-  run.failure = result.shortfall;
 }
 
 } // namespace

@@ -24,6 +24,12 @@ const std::vector<std::string>& figure_names() {
                                                  "energy",
                                                  "half_width",
                                                  "peak_pressure",
+                                                 "left_end",
+                                                 "right_end",
+                                                 "vertical_load",
+                                                 "work_conjugate_load",
+                                                 "load_lower_bound",
+                                                 "load_upper_bound",
                                                  "error_energy_norm",
                                                  "error_relative",
                                                  "error_l2_norm",
@@ -80,23 +86,34 @@ std::string StudyRun::curve() const {
 }
 
 std::map<std::string, double> figures_of(const Result& result) {
-  std::map<std::string, double> figures = {{"degree", result.mesh.degree},
-                                           {"cells", result.mesh.cells},
-                                           {"dofs", result.mesh.dofs},
-                                           {"h_max", result.mesh.h_max},
-                                           {"cycles", result.cycles.size()},
-                                           {"contact_steps", result.history.size()},
-                                           {"linear_iterations", result.work.linear_iterations},
-                                           {"force", result.patch.force},
-                                           {"energy", result.energy.value},
-                                           {"half_width", result.patch.half_width()},
-                                           {"peak_pressure", result.patch.peak_pressure},
-                                           {"residual", result.residuals.largest()},
-                                           {"round_off", result.residuals.round_off},
-                                           {"seconds", result.work.total_seconds()},
-                                           {"peak_memory_mib", result.peak_memory_mib}};
+  std::map<std::string, double> figures = {
+      {"degree", result.mesh.degree},
+      {"cells", result.mesh.cells},
+      {"dofs", result.mesh.dofs},
+      {"h_max", result.mesh.h_max},
+      {"cycles", result.cycles.size()},
+      {"contact_steps", result.history.size()},
+      {"linear_iterations", result.work.linear_iterations},
+      {"force", result.patch.force},
+      {"energy", result.energy.value},
+      {"half_width", result.patch.half_width()},
+      {"peak_pressure", result.patch.peak_pressure},
+      {"vertical_load", result.patch.vertical_load},
+      {"work_conjugate_load", result.patch.work_conjugate_load},
+      {"residual", result.residuals.largest()},
+      {"round_off", result.residuals.round_off},
+      {"seconds", result.work.total_seconds()},
+      {"peak_memory_mib", result.peak_memory_mib}};
   for (const auto& [phase, seconds] : result.work.seconds())
     figures["seconds_" + phase] = seconds;
+  if (result.patch.ends) {
+    figures["left_end"] = result.patch.ends->first;
+    figures["right_end"] = result.patch.ends->second;
+  }
+  if (result.load_bounds) {
+    figures["load_lower_bound"] = result.load_bounds->lower;
+    figures["load_upper_bound"] = result.load_bounds->upper;
+  }
   if (result.errors) {
     figures["error_energy_norm"] = result.errors->energy_norm;
     figures["error_relative"] = result.errors->relative_energy_norm;

@@ -21,7 +21,8 @@ public:
 
   void set_matrix(const Scene& /*scene*/, const AffineConstraints<double>& constraints,
                   const EachCellMatrix& each, Work& work) override {
-    if (!cholesky) {
+    const bool is_first = !cholesky; // later factors take the place of the one before
+    if (is_first) {
       unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
       int n_unknowns = 0;
       for (const auto dof : space.elimination_order())
@@ -37,7 +38,9 @@ public:
       if (cholesky->set_matrix(assembler.triplets))
         ++work.orderings;
     }
-    require_memory(sizeof(double) * cholesky->n_factor_entries(), "the factor of the dual problem");
+    if (is_first)
+      require_memory(sizeof(double) * cholesky->n_factor_entries(),
+                     "the factor of the dual problem");
     cholesky->factorise();
     ++work.factorisations;
   }
