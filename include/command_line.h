@@ -20,6 +20,10 @@ struct CommandLine {
 /// @throws BadInput for arguments that are not understood.
 CommandLine read_command_line(const std::vector<std::string>& arguments);
 
+/// The settings of the file, if there is one, and those of the command line after them.
+/// @throws BadInput as read_settings() does.
+std::vector<Setting> settings_of(const CommandLine& line);
+
 /// How to call the program.
 std::string usage();
 

@@ -10,7 +10,7 @@ std::string usage() {
 Usage:
   rollwave [--verify] FILE.prm [--output DIR] [--set "Section/Key=value"]...
   mpirun -np N rollwave ...   the same on N processes
-  rollwave --parameters   print a complete commented parameter file
+  rollwave --parameters [FILE.prm]   print a complete commented parameter file
   rollwave --help         print this text
   rollwave --version      print the versions of Rollwave and deal.II
 
@@ -55,6 +55,14 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   if (line.action == CommandLine::Action::run && line.file.empty())
     throw BadInput("no parameter file given\n\n" + usage());
   return line;
+}
+
+std::vector<Setting> settings_of(const CommandLine& line) {
+  std::vector<Setting> settings;
+  if (!line.file.empty())
+    settings = read_settings(line.file);
+  settings.insert(settings.end(), line.settings.begin(), line.settings.end());
+  return settings;
 }
 
 } // namespace rollwave

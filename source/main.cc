@@ -25,14 +25,15 @@ namespace {
 void run(const CommandLine& line, std::ostream& out, const Processes& processes) {
   const MPI_Comm communicator = processes.communicator();
   reserve_blas_memory();
-  std::vector<Setting> settings = read_settings(line.file);
-  settings.insert(settings.end(), line.settings.begin(), line.settings.end());
-  const Parameters parameters = read_parameters(settings);
+  const Parameters parameters = read_parameters(settings_of(line));
+  const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
+  if (is_study && line.verify)
+    throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
   const Scene scene = make_scene(parameters);
   const auto directory = prepare_directory(parameters, communicator);
 
   report_scene(out, scene, parameters);
-  if (!parameters.study.vary.empty() || !parameters.study.scenes.empty()) {
+  if (is_study) {
     const Study study = run_study(parameters, directory, out, communicator);
     if (processes.is_first()) {
       out << '\n';
@@ -74,7 +75,7 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
     out << version_text() << '\n';
     break;
   case CommandLine::Action::parameters:
-    print_parameters(out, line.settings);
+    print_parameters(out, settings_of(line));
     break;
   case CommandLine::Action::run:
     run(line, out, processes);

@@ -24,7 +24,7 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
 
-  DoFTools::extract_locally_relevant_dofs(handler, relevant);
+  relevant = DoFTools::extract_locally_relevant_dofs(handler);
   affine_constraints.reinit(relevant);
   // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
   // the seam twice.
