@@ -19,17 +19,18 @@ using AddCellMatrix = std::function<void(const std::vector<dealii::types::global
 /**
  * Calls @p add for every cell of this process with
  *
- *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,   alpha = 1/r^2 -
- * omega^2
+ *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,
+ *     alpha = 1/r^2 - omega^2,
  *
- * by Gauss' rule with degree + 1 points in each direction, the radial index of the degrees of
- * freedom running fastest. Constraints are not applied.
+ * exact but for round-off, by Gauss' rules with degree + 1 points in z and as many in r as the
+ * factor 1/r needs (graded_rule()), the radial index of the degrees of freedom running fastest.
+ * Constraints are not applied.
  */
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add);
 
 /**
- * The load vector f_i = int r f phi_i dr dz with the constraints applied, by the same rule; the
- * scene must have a force.
+ * The load vector f_i = int r f phi_i dr dz with the constraints applied, by Gauss' rule with
+ * degree + 1 points in each direction; the scene must have a force.
  *
  * @throws BadInput where f is not finite.
  */

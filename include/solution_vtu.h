@@ -12,7 +12,8 @@ namespace rollwave {
 /**
  * Writes the deformed cylinder as VTU, in x = (r + u) cos z, y = (r + u) sin z, where the road is
  * the line y = -c. Point fields: `displacement` u, a length, and `pressure` lambda on the surface,
- * zero off the contact zone and not a number inside of the cylinder, where there is none. Elements
+ * zero off the contact zone and not a number inside of the cylinder, where there is none. On each
+ * cell, where there is a certificate: `certified_error`, eta of the cell. Elements
  * of degree p become VTK's Lagrange cells with (p + 1)^2 nodes. A failure to write is left in the
  * state of the stream.
  *

@@ -14,7 +14,7 @@ namespace rollwave {
  *     a(u - u_h, u - u_h) = a(u, u) - 2 a(u, u_h) + a(u_h, u_h),
  *     a(u, u_h) = (f, u_h) - b int lambda u_h dz.
  *
- * Cancellation sets a floor of about 1e-7 to the relative error (1e-4 where the zone cuts the
+ * Cancellation sets a floor of about 5e-6 to the relative error (1e-5 where the zone cuts the
  * contact short and the exact pressure is singular). The pressure is compared at the nodes by the
  * rule [.,.]_h, nodes at which it is singular left out.
  *

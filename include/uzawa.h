@@ -22,9 +22,10 @@ struct UzawaSettings {
  *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
  *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
  *
- * It converges for 0 < rho < 2 / mu, where mu is the largest eigenvalue of the compliance that maps
- * -p to -u on the nodes that end up in contact. A step length that is too large shows in a residual
- * that stops falling.
+ * With mu the largest eigenvalue of the compliance, which maps -p to -u, on a set of nodes, it
+ * converges from any start for 0 < rho < 2 / mu of all contact nodes, and only below 2 / mu of
+ * those that end up in contact. A step length that is too large shows in a residual that stops
+ * falling.
  *
  * The user may interrupt it after any step: p and u_h(p) satisfy the equation, and what they lack
  * of the contact conditions is told in ContactSolution::shortfall.

@@ -188,6 +188,9 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
               "the wanted residual, %u refused as bad input, %u not solved\n",
               n_scenes, counts.solved, counts.compared, counts.short_of_accuracy, counts.bad_input,
               counts.not_solved);
+  EXPECT_EQ(counts.not_solved, 0u);
+  EXPECT_GE(counts.solved, 0.95 * n_scenes);
+  EXPECT_GE(counts.compared, n_scenes / 50);
 }
 
 } // namespace
