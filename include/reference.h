@@ -23,7 +23,8 @@ using SurfaceFunction = std::vector<SurfacePiece>;
 /// What errors are measured against: the solution u of a scene, known much better than the one in
 /// question.
 struct Reference {
-  std::string name; ///< what it is, as in "against NAME"
+  std::string name;     ///< what it is, as in "against NAME"
+  double own_error = 0; ///< the certified one in the energy norm, 0 where it is exact
   double force;
   double energy;
   double norm_squared;

@@ -22,6 +22,9 @@ struct StudyRun {
   std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
 
   bool is_solved() const { return !figures.empty(); }
+
+  /// Whether runs of the curve differ in their meshes.
+  bool is_of_meshes() const { return !settings.empty() && settings.back().section == "Mesh"; }
   std::optional<double> figure(const std::string& name) const;
 
   /// The scene and the settings but the one that varies fastest, as text: runs that share it make a

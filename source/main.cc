@@ -15,6 +15,7 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <iostream>
 #include <new>
 
@@ -42,6 +43,9 @@ void run(const CommandLine& line, std::ostream& out, const Processes& processes)
     }
     if (!study.shortfall.empty())
       throw NotSolved(study.shortfall);
+    if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
+                                             [](const StudyRun& run) { return run.is_solved(); }))
+      throw NotSolved("no run of the study was solved; the first: " + study.runs.front().failure);
     return;
   }
   Solution solution = simulate(scene, parameters, communicator);

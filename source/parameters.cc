@@ -36,8 +36,9 @@ std::vector<std::vector<Setting>> parse_vary(const std::string& text) {
       vary.back().push_back({all.section, all.key, value, all.origin});
     n_runs *= vary.back().size();
     const auto is_same_key = [&all](const auto& list) { return list[0].path() == all.path(); };
-    if (all.section == "Study" || vary.back().empty() || vary.size() > most_varied_keys ||
-        n_runs > most_runs || std::any_of(vary.begin(), vary.end() - 1, is_same_key))
+    if (all.section == "Study" || all.section == "Output" || vary.back().empty() ||
+        vary.size() > most_varied_keys || n_runs > most_runs ||
+        std::any_of(vary.begin(), vary.end() - 1, is_same_key))
       throw std::invalid_argument(text);
   }
   return vary;
@@ -113,8 +114,8 @@ void declare(Declarations& keys, Parameters& p) {
       [&p](const std::string& text) { p.road.contact_zone = parse_zone(text); },
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
       "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
-      "surface without contact would be beyond the road, and two cells more; where the force is "
-      "not uniform, it is where phi < b.");
+      "surface without contact would be beyond the road, and two cells more, but never beyond "
+      "phi < b; where the force is not uniform, it is where phi < b.");
   keys.leave();
 
   keys.enter("Mesh");
@@ -133,8 +134,10 @@ void declare(Declarations& keys, Parameters& p) {
         p.mesh.adaptive_cycles =
             text == "auto" ? std::nullopt : std::optional(to_count(text, 0, 1000));
       },
-      "How often the mesh is refined where the error is, after the global refinements: a number or "
-      "\"auto\", as often as the wanted relative error needs, which is never when none is wanted.");
+      "How often the mesh is refined where the error is, after the global refinements: a number "
+      "from 0 to 1000 or \"auto\", as often as the wanted relative error needs, which is never "
+      "when "
+      "none is wanted.");
   keys.add_number("Wanted relative error", p.mesh.wanted_relative_error, 0, 1,
                   "Refine until the certified error in the energy norm, relative to the solution, "
                   "is no larger than this number, from 0 to 1; 0 for no such wish.");
@@ -192,7 +195,7 @@ void declare(Declarations& keys, Parameters& p) {
                   "Where Uzawa stops: a relative number from 1e-15 to 0.1. The active set method "
                   "ends when the set is right and needs none.");
   keys.add_count("Most steps", p.contact.most_steps, 1, most,
-                 "The contact iteration gives up after this number of steps.");
+                 "The contact iteration gives up after this number of steps, 1 or more.");
   keys.leave();
 
   keys.enter("Solver");
@@ -211,7 +214,8 @@ void declare(Declarations& keys, Parameters& p) {
       "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest. At most 20 keys, each once, in at most 100000 combinations.");
+      "varies fastest. At most 20 keys, each once and none of Study and Output, in at most 100000 "
+      "combinations.");
   keys.add(
       "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "

@@ -68,7 +68,10 @@ std::string read_all(std::istream& in, const std::string& name) {
   }
   if (in.bad())
     throw BadInput(name + ": this parameter file cannot be read");
-  return text;
+  const std::string byte_order_mark = "\xEF\xBB\xBF"; // which some editors put first
+  return text.compare(0, byte_order_mark.size(), byte_order_mark) == 0
+             ? text.substr(byte_order_mark.size())
+             : text;
 }
 
 /// The next line with its continuations, without comment; advances @p line_number.

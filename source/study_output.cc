@@ -55,7 +55,7 @@ std::string text_of(const std::optional<double>& value, int digits) {
 /// log(e / e') / log(h / h') for two runs of one curve, "-" where there is none.
 std::string observed_order(const StudyRun& before, const StudyRun& run, const std::string& error) {
   if (!before.figure(error) || !run.figure(error) || before.curve() != run.curve() ||
-      before.figure("dofs") == run.figure("dofs"))
+      !run.is_of_meshes() || before.figure("dofs") == run.figure("dofs"))
     return "-";
   const double errors = *before.figure(error) / *run.figure(error);
   const double unknowns = *run.figure("dofs") / *before.figure("dofs");
@@ -147,14 +147,40 @@ void print_orders(std::ostream& out, const std::vector<StudyRun>& runs) {
       if (has_errors(runs[next]) &&
           (curve.empty() || curve.back()->figure("dofs") != runs[next].figure("dofs")))
         curve.push_back(&runs[next]);
-    if (curve.size() >= 4) {
+    if (curve.size() >= 4 && runs[first].is_of_meshes()) {
       curve.erase(curve.begin(), curve.end() - 4);
-      out << "Order of the energy norm in h, " << runs[first].curve() << ": fitted "
+      const std::string name = runs[first].curve();
+      out << "Order of the energy norm in h" << (name.empty() ? "" : ", ") << name << ": fitted "
           << text_of(fitted_order(curve), 3) << " over the last three refinements, expected "
           << text_of(curve.back()->figure("expected_order"), 3) << '\n';
     }
     first = next;
   }
+}
+
+/// Text as TeX sets it.
+std::string in_tex(const std::string& text) {
+  std::string tex;
+  for (const char c : text)
+    if (std::string("&%$#_{}").find(c) != std::string::npos)
+      tex += std::string("\\") + c;
+    else if (c == '^' || c == '~')
+      tex += std::string("\\") + c + "{}";
+    else if (c == '<' || c == '>' || c == '|')
+      tex += std::string("$") + c + '$';
+    else
+      tex += c;
+  return tex;
+}
+
+/// The runs with the user's words in TeX.
+std::vector<StudyRun> in_tex(std::vector<StudyRun> runs) {
+  for (StudyRun& run : runs) {
+    run.scene = in_tex(run.scene);
+    for (Setting& setting : run.settings)
+      setting.value = in_tex(setting.value);
+  }
+  return runs;
 }
 
 std::optional<double> number_of(const std::string& text) {
@@ -194,7 +220,7 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
   std::ostringstream table, tex;
   print_study(table, runs);
   add("study.txt", table.str());
-  make_table(runs).write_tex(tex, /*with_header=*/false);
+  make_table(in_tex(runs)).write_tex(tex, /*with_header=*/false);
   add("study.tex", tex.str());
   if (!parameters.wants(OutputFile::plot))
     return written;

@@ -100,6 +100,13 @@ TEST_F(Program, PrintsHelpVersionAndParameters) {
                   (directory / "out").string() + "'")
                 .exit_code,
             0);
+  // Of a file they are those of a run of it.
+  const std::string settings = " --set 'Road/Distance=0.9'";
+  const std::string complete = shell("$rollwave --parameters " + scene + settings).text;
+  ASSERT_EQ(shell("$rollwave " + scene + settings).exit_code, 0);
+  const std::string used = read("parameters.prm");
+  ASSERT_GT(complete.size(), 1000u);
+  EXPECT_EQ(used.substr(used.size() - complete.size()), complete);
 }
 
 TEST_F(Program, RefusesBadInputInOneLineBeforeAnyWork) {
@@ -114,6 +121,8 @@ TEST_F(Program, RefusesBadInputInOneLineBeforeAnyWork) {
       "$rollwave " + scene + " --set Mesh/Degree=two",
       "$rollwave " + scene + " --set 'Cylinder/Angular velocity=1.5'",
       "$rollwave " + scene + " --set 'Cylinder/Radial force=sin(q)'",
+      "$rollwave " + scene + " --set 'Cylinder/Outer radius=1e151'",
+      "$rollwave --verify " + scene + " --set 'Study/Vary=Road/Distance = 0.8'",
       "$rollwave " + scene + " --output /dev/null/out",
       "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.8 | 0.4'",
       "$rollwave " + scene +

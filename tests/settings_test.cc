@@ -36,6 +36,12 @@ TEST(Settings, KeepSectionKeyValueAndLine) {
   EXPECT_EQ(settings[1].value, "A/B = 1 | 2");
 }
 
+TEST(Settings, MayBeginWithAByteOrderMark) {
+  const auto settings = read_text("\xEF\xBB\xBFsubsection Mesh\n set Degree = 2\nend\n");
+  ASSERT_EQ(settings.size(), 1u);
+  EXPECT_EQ(settings[0].path(), "Mesh/Degree");
+}
+
 TEST(Settings, RefuseWhatIsNotOfTheGrammar) {
   EXPECT_NE(refusal_of("subsection Mesh\nDegree = 2\nend\n").find("line 2"), std::string::npos);
   EXPECT_NE(refusal_of("subsection Mesh\nset Degree 2\nend\n").find("line 2"), std::string::npos);
