@@ -94,9 +94,9 @@ void declare(Declarations& keys, Parameters& p) {
   keys.add_number("Inner radius", p.cylinder.inner_radius, tiny, huge,
                   "Radius a of the rigid hub: a length, greater than 0.");
   // Energies have the square of the unit of length.
-  keys.add_number("Outer radius", p.cylinder.outer_radius, 1e-150, 1e150,
-                  "Radius b of the undeformed cylinder: a length, greater than a, from 1e-150 to "
-                  "1e150.");
+  keys.add_number("Outer radius", p.cylinder.outer_radius, 1e-151, 1e151,
+                  "Radius b of the undeformed cylinder: a length, greater than a, from 1e-151 to "
+                  "1e151.");
   keys.add_number(
       "Angular velocity", p.cylinder.angular_velocity, 0, huge,
       "Angular velocity omega of rolling over the wave speed: one over a length, from 0 "

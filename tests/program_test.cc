@@ -121,7 +121,7 @@ TEST_F(Program, RefusesBadInputInOneLineBeforeAnyWork) {
       "$rollwave " + scene + " --set Mesh/Degree=two",
       "$rollwave " + scene + " --set 'Cylinder/Angular velocity=1.5'",
       "$rollwave " + scene + " --set 'Cylinder/Radial force=sin(q)'",
-      "$rollwave " + scene + " --set 'Cylinder/Outer radius=1e151'",
+      "$rollwave " + scene + " --set 'Cylinder/Outer radius=1e152'",
       "$rollwave --verify " + scene + " --set 'Study/Vary=Road/Distance = 0.8'",
       "$rollwave " + scene + " --output /dev/null/out",
       "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.8 | 0.4'",
