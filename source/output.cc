@@ -135,6 +135,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       else
         written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
   }
+  const auto& ends = solution.result.patch.ends;
+  if (!parameters.road.contact_zone && ends &&
+      (ends->first == scene.zone_begin || ends->second == scene.zone_end))
+    written.remarks.push_back(
+        "contact reaches the end of the automatic zone, where phi = b; give a "
+        "wider Road/Contact zone if it may go on");
   solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary))
     add("summary.json", summary_json(scene, parameters, to_lengths(solution.result, scene.unit)));

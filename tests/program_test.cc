@@ -89,6 +89,16 @@ TEST_F(Program, SolvesIterativelyWhenAskedTo) {
   EXPECT_TRUE(json["seconds"].contains("preconditioner"));
 }
 
+TEST_F(Program, SaysWhereTheAutomaticZoneEndsContact) {
+  const std::string note = "Note: contact reaches the end of the automatic zone";
+  for (const auto& [force, is_said] : {std::pair("0", false), {"100", true}}) {
+    const Outcome outcome =
+        shell("$rollwave " + scene + " --set 'Cylinder/Radial force=" + force + "'");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find(note) != std::string::npos, is_said) << outcome.text;
+  }
+}
+
 TEST_F(Program, PrintsHelpVersionAndParameters) {
   EXPECT_NE(shell("$rollwave --help").text.find("Usage"), std::string::npos);
   EXPECT_EQ(shell("$rollwave --help").exit_code, 0);
