@@ -129,11 +129,10 @@ void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, do
   const unsigned int degree = handler.get_fe().degree;
   EdgeTies ties(degree, shapes, constraints);
   std::vector<Edge> seam_begin, seam_end;
-  // Where all cells are of one level no node hangs, and only the seam is left to tie.
-  const auto& mesh = handler.get_triangulation();
-  const bool has_one_level = mesh.n_active_cells() == mesh.n_cells(mesh.n_levels() - 1);
+  // Where no node hangs only the seam is left to tie.
+  const bool has_hanging_nodes = handler.get_triangulation().has_hanging_nodes();
   for (const auto& cell : handler.active_cell_iterators()) {
-    if (cell->is_artificial() || (has_one_level && !cell->at_boundary()))
+    if (cell->is_artificial() || (!has_hanging_nodes && !cell->at_boundary()))
       continue;
     for (const unsigned int f : cell->face_indices()) {
       const auto face = cell->face(f);

@@ -60,8 +60,7 @@ std::vector<double> mapped(const std::vector<Point<1>>& points, double begin, do
 class Lines {
 public:
   explicit Lines(const RingSpace& space) {
-    const auto& mesh = space.dof_handler().get_triangulation();
-    has_one_level = mesh.n_active_cells() == mesh.n_cells(mesh.n_levels() - 1);
+    has_hanging_nodes = space.dof_handler().get_triangulation().has_hanging_nodes();
     for (const auto& cell : space.dof_handler().active_cell_iterators())
       for (const unsigned int f : {2U, 3U})
         if (!cell->is_artificial() && cell->at_boundary(f))
@@ -77,7 +76,7 @@ public:
 
   Parts parts(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) const {
     const auto face = cell->face(f);
-    if (!has_one_level && face->has_children())
+    if (has_hanging_nodes && face->has_children())
       return {2, {{face->child_index(0), face->child_index(1)}}};
     if (f >= 2 && cell->neighbor_index(f) < 0) {
       const double begin = face->vertex(0)[0], end = face->vertex(1)[0];
@@ -95,7 +94,7 @@ public:
   }
 
 private:
-  bool has_one_level; ///< and no hanging nodes
+  bool has_hanging_nodes;
   std::array<std::map<std::pair<double, double>, int>, 2> seam;
 };
 

@@ -162,7 +162,9 @@ void print_orders(std::ostream& out, const std::vector<StudyRun>& runs) {
 std::string in_tex(const std::string& text) {
   std::string tex;
   for (const char c : text)
-    if (std::string("&%$#_{}").find(c) != std::string::npos)
+    if (c == '\\')
+      tex += "\\textbackslash{}";
+    else if (std::string("&%$#_{}").find(c) != std::string::npos)
       tex += std::string("\\") + c;
     else if (c == '^' || c == '~')
       tex += std::string("\\") + c + "{}";
