@@ -26,7 +26,7 @@ namespace rollwave {
 class AngularBubbles {
 public:
   /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param columns nullptr when there is no force
+  /// @param columns as for DualPotential
   AngularBubbles(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
                  const FieldVector& potential, const std::vector<EdgePressure>& pressures,
                  ForceColumns* columns);

@@ -27,19 +27,18 @@ struct MeshSystem;
  *
  *     int [ r alpha (psi_s + v_z)^2 + r ((G - psi_z)/r - v_r)^2 ] dr dz.
  *
- * A force f that is not uniform enters by an interpolant f_0 (ForceColumns), and is seen by Gauss'
- * rules at their points only. With delta = ||f - f_0|| + ||f - f_h||, f_h interpolating f at these
- * points, both taken on finer points in the norm of int r w^2 dr dz, Friedrichs' inequality
+ * G = int_r^b rho f_0 drho is the integral of the force f or, where that is not uniform, of a
+ * ForceInterpolant f_0, and (f_0, v) = int G v_r dr dz. Friedrichs' inequality
  *
- *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   |w|^2 = a(w, w)
+ *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   |w|^2 = a(w, w),
  *
- * gives a(v - u, v - u)^(1/2) <= C delta + (C^2 delta^2 + eta^2)^(1/2), and the bounds of J open
- * accordingly. Of G, too, the rules along z see an interpolant only: eta grows by the norm of what
- * they miss, (int (G - G_h)^2 / r dr dz)^(1/2), taken on finer points as well.
+ * the norm ||w|| being that of int r w^2 dr dz, gives a(v - u, v - u)^(1/2) <= C delta + (C^2
+ * delta^2 + eta^2)^(1/2) with delta = ||f - f_0||, and the bounds of J open accordingly. What
+ * Gauss' rules miss of G is added to eta, and opens the bounds of J too: missed_moment().
  *
  * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
- * road with degree + 6 points: the bound assumes that these resolve phi, and that ||f - f_h|| is
- * seen by four times as many points.
+ * road with degree + 6 points. The bound assumes that these resolve phi, and that the finer points
+ * on which ForceInterpolant and missed_moment() are judged see what they miss.
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds

@@ -38,7 +38,8 @@ public:
 
   /// The nodal values of psi, both sides of the seam having their own.
   /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
-  /// @param columns nullptr when there is no force
+  /// @param columns with lines at Gauss' degree + 2 points; nullptr when G is a function of r,
+  /// which does no work: int psi_z dz = 0 for every periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
                     const std::vector<EdgePressure>& pressures, ForceColumns* columns, Work& work);

@@ -1,49 +1,60 @@
 #ifndef ROLLWAVE_FORCE_COLUMNS_H
 #define ROLLWAVE_FORCE_COLUMNS_H
 
-#include <map>
+#include "force_interpolant.h"
+#include "interval_map.h"
+
+#include <deal.II/base/quadrature.h>
+
+#include <array>
 #include <vector>
 
 namespace rollwave {
 
-struct Scene;
-
-/**
- * The integral G(r, z) = int_r^b rho f_0(rho, z) drho of a force f_0 that interpolates the scene's
- * force f: for every z, rho f_0 is on each of a number of radial panels (of equal ratio of their
- * ends) the polynomial of degree 15 that equals rho f at Gauss' points. A uniform force is its own
- * interpolant, with G = f (b^2 - r^2)/2.
- */
-class ForceColumns {
+/// G = int_r^b rho f_0 drho of a ForceInterpolant at given radii, on one line z = const after
+/// another.
+class ForceAtRadii {
 public:
-  ForceColumns(const Scene& scene, unsigned int n_panels);
+  /// @param radii increasing
+  explicit ForceAtRadii(std::vector<double> radii);
 
-  /// One angle z.
-  class Column {
-  public:
-    double integral(double r) const; ///< G(r, z)
-    double force(double r) const;    ///< f_0(r, z)
-
-  private:
-    friend class ForceColumns;
-    const Scene* scene;
-    const std::vector<double>* ends;
-    std::vector<std::vector<double>> coefficients; ///< of rho f_0, by Legendre polynomials
-    std::vector<double> outside;                   ///< G at the outer end of each panel
-  };
-
-  /// Made when first asked for.
-  const Column& at(double z);
-
-  /// Whether f_0 is f itself.
-  bool are_exact() const;
+  void integrals(const ForceColumn& column, std::vector<double>& values);
 
 private:
-  Column make(double z) const;
+  /// The integrals of Legendre's polynomials of a piece from a radius to the piece's end.
+  struct Weights {
+    double begin = 0, end = 0; ///< of the piece; 0 before the first
+    std::array<double, ForcePiece::n_coefficients> integrals;
+  };
 
-  const Scene& scene;
-  std::vector<double> ends;
-  std::map<double, Column> known;
+  static void prepare(Weights& at, double r, const ForcePiece& piece);
+
+  const std::vector<double> radii;
+  std::vector<Weights> weights; ///< for the pieces met last
+};
+
+/// The lines z = const and the radii at which the cells of a mesh need a force, many of which they
+/// have in common: each is made when first asked for.
+class ForceColumns {
+public:
+  /// @param rule for a cell's angular interval [0, 1]: the lines are at its points
+  ForceColumns(const ForceInterpolant& force, const dealii::Quadrature<1>& rule)
+      : force(force), rule(rule) {}
+
+  /// Those of the angular interval [begin, end].
+  const std::vector<ForceColumn>& on(double begin, double end);
+
+  /// Any other.
+  ForceColumn at(double z) const { return force.column(z); }
+
+  /// For @p radii that belong to the radial interval [begin, end].
+  ForceAtRadii& at_radii(double begin, double end, const std::vector<double>& radii);
+
+private:
+  const ForceInterpolant& force;
+  const dealii::Quadrature<1> rule;
+  IntervalMap<std::vector<ForceColumn>> columns;
+  IntervalMap<ForceAtRadii> known_radii;
 };
 
 } // namespace rollwave

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_RADIAL_RULE_H
 #define ROLLWAVE_RADIAL_RULE_H
 
-#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/quadrature.h>
 
 #include <vector>
 
@@ -13,9 +13,9 @@ struct RadialRule {
   std::vector<double> weight;
 };
 
-/// @p gauss on each of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut
+/// @p points on each of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut
 /// into: the integrands are smooth but for a pole at r = 0.
-RadialRule graded_rule(double begin, double end, const dealii::QGauss<1>& gauss);
+RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points);
 
 } // namespace rollwave
 

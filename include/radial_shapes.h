@@ -1,13 +1,13 @@
 #ifndef ROLLWAVE_RADIAL_SHAPES_H
 #define ROLLWAVE_RADIAL_SHAPES_H
 
+#include "interval_map.h"
 #include "shape_products.h"
 
 #include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <map>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -45,13 +45,15 @@ public:
 
   const RadialShapes& on(double begin, double end);
 
+  /// The rule of an interval, or of each of the pieces that graded_rule() cuts it into.
+  dealii::QGauss<1> gauss(double begin, double end) const;
+
 private:
   RadialShapes make(double begin, double end) const;
 
   const Scene& scene;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
-  std::map<std::pair<double, double>, RadialShapes> known;
-  std::map<std::pair<double, double>, RadialShapes>::const_iterator recent = known.end();
+  IntervalMap<RadialShapes> known;
 };
 
 } // namespace rollwave

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 namespace rollwave {
 
@@ -61,6 +62,9 @@ struct Scene {
 /// x = z - 3 pi/2, the angle from the lowest point, to the accuracy of z: 3 pi/2 is taken in two
 /// parts.
 double from_lowest_point(double z);
+
+/// The refusal of a force that is not finite at a point, r in the scene's unit.
+std::string force_not_finite_at(const Scene& scene, double r, double z);
 
 /// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle. Near the
 /// lowest point nothing cancels: phi = (c - b) + 2 c sin^2(x/2) / cos x, x = z - 3 pi/2.

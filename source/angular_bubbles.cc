@@ -276,14 +276,19 @@ private:
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)
         load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
-    if (columns && !columns->are_exact())
+    if (columns) {
+      ForceAtRadii& at_radii = columns->at_radii(low[0], high[0], radial.r);
+      const auto& lines = columns->on(low[1], high[1]);
       for (unsigned int p = 0; p < integrals.gauss.size(); ++p) {
-        const auto& column = columns->at(low[1] + length * integrals.gauss.point(p)[0]);
-        for (unsigned int q = 0; q < radial.r.size(); ++q)
+        at_radii.integrals(lines[p], moments);
+        for (unsigned int q = 0; q < radial.r.size(); ++q) {
+          const double factor =
+              length * integrals.weighted_mode[p] * moments[q] / radial.r[q] * radial.weight[q];
           for (unsigned int i = 0; i < n; ++i)
-            load[i] += length * integrals.weighted_mode[p] * column.integral(radial.r[q]) /
-                       radial.r[q] * radial.weight[q] * radial.shapes[q][i].potential;
+            load[i] += factor * radial.shapes[q][i].potential;
+        }
       }
+    }
     if (const auto edge = space.surface_face(cell); edge && pressures[*edge].mean > 0) {
       const SurfaceFace& face = space.surface_faces()[*edge];
       for (unsigned int p = 0; p < integrals.gauss.size(); ++p)
@@ -306,6 +311,7 @@ private:
   std::vector<types::global_dof_index> dofs; ///< of the cell looked at
   std::vector<unsigned int> places;          ///< of its values of g
   std::vector<double> psi_bubble;
+  std::vector<double> moments; ///< G on a line
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "assembly.h"
 
 #include "errors.h"
+#include "interval_map.h"
 #include "processes.h"
 #include "radial_rule.h"
 #include "scene.h"
@@ -10,9 +11,6 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <cmath>
-#include <map>
-#include <sstream>
-#include <utility>
 
 namespace rollwave {
 
@@ -46,20 +44,13 @@ ShapeProducts radial_products(const Scene& scene,
   return products;
 }
 
-std::string not_finite_at(double r, double z) {
-  std::ostringstream text;
-  text << "Cylinder/Radial force is not finite at r = " << r << ", z = " << z;
-  return text.str();
-}
-
 } // namespace
 
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const auto shapes = lobatto_lagrange(element.degree);
   const ShapeProducts reference = reference_products(element.degree);
-  // A mesh has many cells, but few radial intervals.
-  std::map<std::pair<double, double>, ShapeProducts> known;
+  IntervalMap<ShapeProducts> known;
   FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell()), ordered(dofs.size());
@@ -68,11 +59,9 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
     if (!cell->is_locally_owned())
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const auto key = std::pair(low[0], high[0]);
-    auto radial = known.find(key);
-    if (radial == known.end())
-      radial = known.emplace(key, radial_products(scene, shapes, low[0], high[0])).first;
-    tensor_matrix(radial->second, reference, high[1] - low[1], cell_matrix);
+    const ShapeProducts& radial =
+        known.at(low[0], high[0], [&] { return radial_products(scene, shapes, low[0], high[0]); });
+    tensor_matrix(radial, reference, high[1] - low[1], cell_matrix);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i)
       ordered[i] = dofs[numbering[i]];
@@ -102,7 +91,7 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
       const double f = scene.force(r, z);
       if (!std::isfinite(f)) {
         if (refusal.empty())
-          refusal = not_finite_at(r * scene.unit, z);
+          refusal = force_not_finite_at(scene, r, z);
         continue;
       }
       for (const unsigned int i : values.dof_indices())

@@ -3,7 +3,9 @@
 #include "angular_bubbles.h"
 #include "contact_free.h"
 #include "edge_pressure.h"
+#include "force_columns.h"
 #include "mesh_system.h"
+#include "missed_moment.h"
 #include "parameters.h"
 #include "scene.h"
 #include "work.h"
@@ -44,120 +46,32 @@ struct AngularShapes {
   }
 };
 
-/// The points of a rule on both halves of a line, and the values there of the polynomials that are
-/// given at the rule's own points.
-struct FinerPoints {
-  explicit FinerPoints(const QGauss<1>& gauss)
-      : fine(gauss, 2), interpolation(fine.size(), gauss.size()) {
-    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
-    for (unsigned int q = 0; q < fine.size(); ++q)
-      for (unsigned int i = 0; i < gauss.size(); ++i)
-        interpolation(q, i) = lagrange[i].value(fine.point(q)[0]);
-  }
-
-  QIterated<1> fine;
-  FullMatrix<double> interpolation;
-};
-
-/// The square of the distance of f from what Gauss' rules see of it, in the norm of int r w^2 dr
-/// dz: on each cell f is compared with the polynomial that equals it at the points of the rule, at
-/// the points of the rule on the four quarters of the cell.
-double unresolved_force_squared(const RingSpace& space, const Scene& scene,
-                                const QGauss<1>& gauss) {
-  const auto [fine, interpolation] = FinerPoints(gauss);
-  const unsigned int n = gauss.size();
-  FullMatrix<double> nodal(n), rows(fine.size(), n), values(fine.size());
-  double squared = 0;
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0);
-    const Tensor<1, 2> size = cell->vertex(3) - low;
-    const auto force = [&](double s, double t) {
-      return scene.force(low[0] + s * size[0], std::fmod(low[1] + t * size[1], 2 * numbers::PI));
-    };
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        nodal(i, j) = force(gauss.point(i)[0], gauss.point(j)[0]);
-    interpolation.mmult(rows, nodal);
-    rows.mTmult(values, interpolation);
-    for (unsigned int p = 0; p < fine.size(); ++p)
-      for (unsigned int q = 0; q < fine.size(); ++q) {
-        const double s = fine.point(p)[0];
-        const double error = force(s, fine.point(q)[0]) - values(p, q);
-        squared += fine.weight(p) * fine.weight(q) * size[0] * size[1] * (low[0] + s * size[0]) *
-                   error * error;
-      }
-  }
-  return Utilities::MPI::sum(squared, space.communicator());
-}
-
-/// The square of the distance of G from what Gauss' rules along z see of it, in the norm of int w^2
-/// / r dr dz. What they see of it on cells of different lengths does not fit together, so that it
-/// belongs to no flux in equilibrium.
-double unresolved_moment_squared(const RingSpace& space, RadialShapesOfMesh& shapes,
-                                 ForceColumns& columns, const QGauss<1>& gauss) {
-  const auto [fine, interpolation] = FinerPoints(gauss);
-  Vector<double> nodal(gauss.size()), values(fine.size());
-  std::vector<const ForceColumns::Column*> at_gauss(gauss.size()), at_fine(fine.size());
-  double squared = 0;
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const double length = high[1] - low[1];
-    for (unsigned int i = 0; i < gauss.size(); ++i)
-      at_gauss[i] = &columns.at(low[1] + length * gauss.point(i)[0]);
-    for (unsigned int p = 0; p < fine.size(); ++p)
-      at_fine[p] = &columns.at(low[1] + length * fine.point(p)[0]);
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
-    for (unsigned int q = 0; q < radial.r.size(); ++q) {
-      const double r = radial.r[q];
-      for (unsigned int i = 0; i < gauss.size(); ++i)
-        nodal(i) = at_gauss[i]->integral(r);
-      interpolation.vmult(values, nodal);
-      for (unsigned int p = 0; p < fine.size(); ++p) {
-        const double error = at_fine[p]->integral(r) - values(p);
-        squared += fine.weight(p) * length * radial.weight[q] / r * error * error;
-      }
-    }
-  }
-  return Utilities::MPI::sum(squared, space.communicator());
-}
-
 /// The integrals over a line z = const of a cell, each over dr.
 struct LineIntegrals {
   double bound_squared = 0; ///< of eta^2 without the road's term
   double norm_squared = 0;  ///< of a(v, v)
-  double work_of_force = 0; ///< of (f, v)
-  double l2_squared = 0;    ///< of r v^2
-  double force_error = 0;   ///< of the square of the norm of f - f_0
+  double work_of_force = 0; ///< of (f_0, v) = int G v_r dr dz
 
   void add(const LineIntegrals& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
-    l2_squared += weight * other.l2_squared;
-    force_error += weight * other.force_error;
   }
 
   /// The sums over all processes.
   LineIntegrals over(MPI_Comm communicator) const {
-    std::vector<double> sums = {bound_squared, norm_squared, work_of_force, l2_squared,
-                                force_error};
+    std::vector<double> sums = {bound_squared, norm_squared, work_of_force};
     Utilities::MPI::sum(sums, communicator, sums);
-    return {sums[0], sums[1], sums[2], sums[3], sums[4]};
+    return {sums[0], sums[1], sums[2]};
   }
 };
 
 class Integrator {
 public:
-  Integrator(const RingSpace& space, const Scene& scene, const FieldVector& displacement,
-             const FieldVector& potential, const AngularBubbles& bubbles,
-             RadialShapesOfMesh& shapes, ForceColumns* columns)
-      : scene(scene), displacement(displacement), potential(potential), bubbles(bubbles),
-        shapes(shapes), columns(columns),
-        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+  Integrator(const RingSpace& space, const FieldVector& displacement, const FieldVector& potential,
+             const AngularBubbles& bubbles, RadialShapesOfMesh& shapes, ForceColumns* columns)
+      : displacement(displacement), potential(potential), bubbles(bubbles), shapes(shapes),
+        columns(columns), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()), n(element.degree + 1),
         lagrange(lobatto_lagrange(element.degree)),
         beta(AngularBubbles::mode(element.degree).primitive()), dofs(n * n), ordered(n * n),
@@ -181,11 +95,22 @@ public:
       psi[i] = potential(ordered[i]);
     }
     bubbles.values(ordered, g);
+    if (columns) {
+      lines = &columns->on(low[1], high[1]);
+      at_radii = &columns->at_radii(low[0], high[0], radial->r);
+    }
+  }
+
+  /// The force on the line number @p p of the mesh's columns, and on any line of the cell; nullptr
+  /// and empty when there is none.
+  const ForceColumn* column(unsigned int p) const { return lines ? &(*lines)[p] : nullptr; }
+  ForceColumn column_at(double t) const {
+    return columns ? columns->at(low[1] + t * (high[1] - low[1])) : ForceColumn();
   }
 
   /// On one line, with the correction c of v on the surface.
-  LineIntegrals on_line(const AngularShapes& angular,
-                        const FeasibleTrace::Correction& correction) const {
+  LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
+                        const ForceColumn* column) {
     const double length = high[1] - low[1];
     // Coefficients along the line of u, psi and their angular derivatives
     std::array<double, highest_degree + 1> line_u, line_u_z, line_psi, line_psi_z;
@@ -201,35 +126,27 @@ public:
       line_psi[i] += length * angular.bubble * g[i];
       line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
     }
-    const double z = low[1] + angular.t * length;
     const double height = high[0] - low[0];
-    const ForceColumns::Column* const column = columns ? &columns->at(z) : nullptr;
+    if (columns)
+      at_radii->integrals(*column, moments);
 
     LineIntegrals sums;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
       const double xi = (r - low[0]) / height;
-      double v = correction.value * xi, v_r = correction.value / height,
-             v_z = correction.slope * xi, psi_s = 0, psi_z = 0;
+      double v_r = correction.value / height, v_z = correction.slope * xi, psi_s = 0, psi_z = 0;
       const RadialShape* const shapes_at = radial->shapes[q].data();
       for (unsigned int i = 0; i < n; ++i) {
         const RadialShape& shape = shapes_at[i];
-        v += shape.value * line_u[i];
         v_r += shape.derivative * line_u[i];
         v_z += shape.value * line_u_z[i];
         psi_s += shape.potential_s * line_psi[i];
         psi_z += shape.potential * line_psi_z[i];
       }
       double radial_flux = -psi_z / r;
-      if (column) {
-        radial_flux += column->integral(r) / r;
-        const double interpolated = column->force(r);
-        const double f =
-            columns->are_exact() ? interpolated : scene.force(r, std::fmod(z, 2 * numbers::PI));
-        const double error = f - interpolated;
-        sums.work_of_force += weight * r * f * v;
-        sums.l2_squared += weight * r * v * v;
-        sums.force_error += weight * r * error * error;
+      if (columns) {
+        radial_flux += moments[q] / r;
+        sums.work_of_force += weight * moments[q] * v_r;
       }
       // tau_z = -alpha psi_s
       sums.bound_squared +=
@@ -258,7 +175,6 @@ public:
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
-  const Scene& scene;
   const FieldVector& displacement;
   const FieldVector& potential;
   const AngularBubbles& bubbles;
@@ -275,6 +191,9 @@ private:
   std::vector<double> g;                              ///< of the bubbles
   Point<2> low, high;
   const RadialShapes* radial = nullptr;
+  const std::vector<ForceColumn>* lines = nullptr;
+  ForceAtRadii* at_radii = nullptr;
+  std::vector<double> moments; ///< G on a line
 };
 
 } // namespace
@@ -285,11 +204,15 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
   RadialShapesOfMesh shapes(scene, degree);
-  std::optional<ForceColumns> columns;
+  std::optional<ForceInterpolant> force;
   if (scene.force)
-    columns.emplace(scene, 4);
-  const bool has_polynomials_in_z = !columns || columns->are_exact();
+    force.emplace(space, scene);
+  const bool has_polynomials_in_z = !force || force->is_exact();
   const QGauss<1> gauss(has_polynomials_in_z ? degree + 1 : degree + 2), along_road(degree + 6);
+  std::optional<ForceColumns> columns;
+  if (force)
+    columns.emplace(*force, gauss);
+  ForceColumns* const uneven_columns = has_polynomials_in_z ? nullptr : &*columns;
 
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
@@ -297,15 +220,13 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   auto& dual = system.potential;
   if (!dual)
     dual = std::make_unique<DualPotential>(space, system.stiffness.kind);
-  const FieldVector potential =
-      dual->solve(scene, shapes, pressures, columns ? &*columns : nullptr, work);
+  const FieldVector potential = dual->solve(scene, shapes, pressures, uneven_columns, work);
   if (!system.is_kept)
     dual.reset();
 
   const auto& triangulation = space.dof_handler().get_triangulation();
-  const AngularBubbles bubbles(space, scene, shapes, potential, pressures,
-                               columns ? &*columns : nullptr);
-  Integrator integrator(space, scene, displacement, potential, bubbles, shapes,
+  const AngularBubbles bubbles(space, scene, shapes, potential, pressures, uneven_columns);
+  Integrator integrator(space, displacement, potential, bubbles, shapes,
                         columns ? &*columns : nullptr);
   std::vector<AngularShapes> lines;
   for (const auto& point : gauss.get_points())
@@ -322,7 +243,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     const auto face = space.surface_face(cell);
     if (!face) {
       for (unsigned int p = 0; p < gauss.size(); ++p)
-        sums.add(integrator.on_line(lines[p], {0, 0, 0}), gauss.weight(p) * length);
+        sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.column(p)),
+                 gauss.weight(p) * length);
       if (has_polynomials_in_z)
         sums.bound_squared += integrator.unseen_square();
     } else
@@ -335,27 +257,27 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
           const AngularShapes angular = integrator.angular_shapes(t);
           const double pressure =
               pressures[*face](t) + integrator.surface_bubble() / scene.outer_radius * angular.mode;
-          sums.add(integrator.on_line(angular, correction), weight);
+          const ForceColumn column = integrator.column_at(t);
+          sums.add(integrator.on_line(angular, correction, &column), weight);
           contact_work += weight * scene.outer_radius * pressure * correction.gap;
         }
     sums.bound_squared += 2 * contact_work;
     cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(0., sums.bound_squared));
     total.add(sums, 1);
   }
-  const auto [bound_squared, norm_squared, work_of_force, l2_squared, force_error] =
-      total.over(space.communicator());
+  const auto [bound_squared, norm_squared, work_of_force] = total.over(space.communicator());
 
   const double friedrichs = std::sqrt(
       contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius));
-  double unresolved = 0, eta = std::sqrt(std::max(0., bound_squared));
-  if (columns && !columns->are_exact()) {
-    unresolved = std::sqrt(unresolved_force_squared(space, scene, gauss));
-    eta += std::sqrt(unresolved_moment_squared(space, shapes, *columns, gauss));
+  double epsilon = 0, missed = 0;
+  if (uneven_columns) {
+    epsilon = friedrichs * force->error();
+    missed = missed_moment(space, *force, shapes, *columns, gauss);
   }
-  const double epsilon = friedrichs * (std::sqrt(force_error) + unresolved);
+  const double eta = std::sqrt(std::max(0., bound_squared)) + missed;
   const double energy_norm = epsilon + std::hypot(epsilon, eta);
   const double energy = norm_squared / 2 - work_of_force;
-  const double energy_error = unresolved * std::sqrt(l2_squared);
+  const double energy_error = (epsilon + missed) * std::sqrt(norm_squared);
   const double smallest_norm = std::sqrt(norm_squared) - energy_norm;
   double relative = std::numeric_limits<double>::infinity();
   if (smallest_norm > 0)

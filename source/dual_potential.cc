@@ -133,11 +133,10 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       angular_derivative(p, j) = both[1];
     }
 
-  // A uniform force does no work: int psi_z dz = 0 for every periodic psi.
-  const bool has_load = columns && !columns->are_exact();
   FullMatrix<double> cell_matrix(n * n);
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n), cell_lift(n * n);
+  std::vector<double> integrals;
   FieldVector rhs = space.make_field();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -148,7 +147,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       cell_lift(i) = lift(ordered[i]);
     }
     // Only cells at the surface and the seam feel the values prescribed there.
-    if (!has_load && cell_lift.all_zero())
+    if (!columns && cell_lift.all_zero())
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const RadialShapes& radial = shapes.on(low[0], high[0]);
@@ -156,11 +155,13 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
     tensor_matrix(radial.products, reference, length, cell_matrix);
     cell_matrix.vmult(cell_vector, cell_lift);
     cell_vector *= -1;
-    if (has_load)
+    if (columns) {
+      ForceAtRadii& at_radii = columns->at_radii(low[0], high[0], radial.r);
+      const auto& lines = columns->on(low[1], high[1]);
       for (unsigned int p = 0; p < gauss.size(); ++p) {
-        const auto& column = columns->at(low[1] + length * gauss.point(p)[0]);
+        at_radii.integrals(lines[p], integrals);
         for (unsigned int q = 0; q < radial.r.size(); ++q) {
-          const double factor = column.integral(radial.r[q]) / radial.r[q] * radial.weight[q] *
+          const double factor = integrals[q] / radial.r[q] * radial.weight[q] *
                                 gauss.weight(p); // d/dz and dz cancel in length
           for (unsigned int j = 0; j < n; ++j) {
             const double slope = angular_derivative(p, j) * factor;
@@ -169,6 +170,7 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
           }
         }
       }
+    }
     constraints.distribute_local_to_global(cell_vector, ordered, rhs);
   }
   rhs.compress(VectorOperation::add);

@@ -1,14 +1,9 @@
 #include "force_columns.h"
 
-#include "scene.h"
+#include <deal.II/base/polynomial.h>
 
-#include <boost/math/special_functions/legendre.hpp>
-#include <deal.II/base/numbers.h>
-#include <deal.II/base/quadrature_lib.h>
-
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 namespace rollwave {
 
@@ -16,98 +11,58 @@ using namespace dealii;
 
 namespace {
 
-constexpr unsigned int n_points = 16;
-
-/// P_0(x), ..., P_n(x) with n = n_points.
-std::array<double, n_points + 1> legendre(double x) {
-  std::array<double, n_points + 1> p;
-  p[0] = 1;
-  p[1] = x;
-  for (unsigned int k = 1; k < n_points; ++k)
-    p[k + 1] = boost::math::legendre_next(k, x, p[k], p[k - 1]);
-  return p;
-}
+constexpr unsigned int n = ForcePiece::n_coefficients;
 
 } // namespace
 
-ForceColumns::ForceColumns(const Scene& scene, unsigned int n_panels) : scene(scene) {
-  for (unsigned int i = 0; i < n_panels; ++i)
-    ends.push_back(scene.inner_radius *
-                   std::pow(scene.outer_radius / scene.inner_radius, double(i) / n_panels));
-  ends.push_back(scene.outer_radius);
-}
+ForceAtRadii::ForceAtRadii(std::vector<double> radii)
+    : radii(std::move(radii)), weights(this->radii.size()) {}
 
-const ForceColumns::Column& ForceColumns::at(double z) {
-  if (scene.uniform_force)
-    z = 0; // one for all
-  const auto found = known.find(z);
-  return found != known.end() ? found->second : known.emplace(z, make(z)).first->second;
-}
-
-bool ForceColumns::are_exact() const {
-  return scene.uniform_force.has_value();
-}
-
-ForceColumns::Column ForceColumns::make(double z) const {
-  static const QGauss<1> gauss(n_points);
-  static const auto polynomials = [] {
-    std::vector<std::array<double, n_points + 1>> all;
-    for (const auto& point : gauss.get_points())
-      all.push_back(legendre(2 * point[0] - 1));
-    return all;
-  }();
-  Column column;
-  column.scene = &scene;
-  column.ends = &ends;
-  if (scene.uniform_force)
-    return column;
-  const unsigned int n_panels = ends.size() - 1;
-  column.coefficients.assign(n_panels, std::vector<double>(n_points, 0.));
-  column.outside.assign(n_panels, 0.);
-  const double angle = std::fmod(z, 2 * numbers::PI);
-  for (unsigned int panel = n_panels; panel-- > 0;) {
-    const double length = ends[panel + 1] - ends[panel];
-    auto& coefficients = column.coefficients[panel];
-    for (unsigned int q = 0; q < n_points; ++q) {
-      const double r = ends[panel] + length * gauss.point(q)[0];
-      const double value = gauss.weight(q) * r * scene.force(r, angle);
-      for (unsigned int k = 0; k < n_points; ++k)
-        coefficients[k] += (2 * k + 1) * value * polynomials[q][k];
+void ForceAtRadii::integrals(const ForceColumn& column, std::vector<double>& values) {
+  values.resize(radii.size());
+  auto piece = column.begin();
+  for (unsigned int q = 0; q < radii.size(); ++q) {
+    while (radii[q] > piece->end && piece + 1 != column.end())
+      ++piece;
+    Weights& at = weights[q];
+    if (at.begin != piece->begin || at.end != piece->end)
+      prepare(at, radii[q], *piece);
+    double even = piece->outside, odd = 0;
+    for (unsigned int k = 0; k < n; k += 2) {
+      even += piece->coefficients[k] * at.integrals[k];
+      odd += piece->coefficients[k + 1] * at.integrals[k + 1];
     }
-    if (panel > 0)
-      column.outside[panel - 1] = column.outside[panel] + length * coefficients[0];
+    values[q] = even + odd;
   }
-  return column;
 }
 
-double ForceColumns::Column::integral(double r) const {
-  if (scene->uniform_force) {
-    const double b = scene->outer_radius;
-    return *scene->uniform_force * (b - r) * (b + r) / 2;
-  }
-  const auto next = std::upper_bound(ends->begin() + 1, ends->end() - 1, r);
-  const unsigned int panel = next - ends->begin() - 1;
-  const double length = (*ends)[panel + 1] - (*ends)[panel];
-  const double x = 2 * (r - (*ends)[panel]) / length - 1;
-  const auto p = legendre(x);
-  // int_x^1 P_k = (P_(k-1)(x) - P_(k+1)(x)) / (2 k + 1)
-  double sum = coefficients[panel][0] * (1 - x);
-  for (unsigned int k = 1; k < n_points; ++k)
-    sum += coefficients[panel][k] * (p[k - 1] - p[k + 1]) / (2 * k + 1);
-  return outside[panel] + sum * length / 2;
+void ForceAtRadii::prepare(Weights& at, double r, const ForcePiece& piece) {
+  static const auto legendre = Polynomials::Legendre::generate_complete_basis(n);
+  at.begin = piece.begin;
+  at.end = piece.end;
+  const double length = piece.end - piece.begin, t = (r - piece.begin) / length;
+  std::array<double, n + 1> scaled; // L_k / (2 k + 1)^(1/2)
+  for (unsigned int k = 0; k <= n; ++k)
+    scaled[k] = legendre[k].value(t) / std::sqrt(2 * k + 1.);
+  // int_t^1 L_k = (L_(k-1)/(2 k - 1)^(1/2) - L_(k+1)/(2 k + 3)^(1/2)) / (2 (2 k + 1)^(1/2))
+  at.integrals[0] = piece.end - r;
+  for (unsigned int k = 1; k < n; ++k)
+    at.integrals[k] = length * (scaled[k - 1] - scaled[k + 1]) / (2 * std::sqrt(2 * k + 1.));
 }
 
-double ForceColumns::Column::force(double r) const {
-  if (scene->uniform_force)
-    return *scene->uniform_force;
-  const auto next = std::upper_bound(ends->begin() + 1, ends->end() - 1, r);
-  const unsigned int panel = next - ends->begin() - 1;
-  const double length = (*ends)[panel + 1] - (*ends)[panel];
-  const auto p = legendre(2 * (r - (*ends)[panel]) / length - 1);
-  double sum = 0;
-  for (unsigned int k = 0; k < n_points; ++k)
-    sum += coefficients[panel][k] * p[k];
-  return sum / r;
+const std::vector<ForceColumn>& ForceColumns::on(double begin, double end) {
+  if (force.is_exact()) // a number, the same on all lines
+    begin = end = 0;
+  return columns.at(begin, end, [&] {
+    std::vector<ForceColumn> lines;
+    for (const auto& point : rule.get_points())
+      lines.push_back(force.column(begin + (end - begin) * point[0]));
+    return lines;
+  });
+}
+
+ForceAtRadii& ForceColumns::at_radii(double begin, double end, const std::vector<double>& radii) {
+  return known_radii.at(begin, end, [&] { return ForceAtRadii(radii); });
 }
 
 } // namespace rollwave

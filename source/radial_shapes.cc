@@ -29,20 +29,15 @@ RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
     : scene(scene), lagrange(lobatto_lagrange(degree)) {}
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
-  const auto key = std::pair(begin, end);
-  // Cells of a uniform mesh come from the inside out, one row after another.
-  if (recent == known.end() || ++recent == known.end())
-    recent = known.begin();
-  if (recent == known.end() || recent->first != key)
-    recent = known.find(key);
-  if (recent == known.end())
-    recent = known.emplace(key, make(begin, end)).first;
-  return recent->second;
+  return known.at(begin, end, [&] { return make(begin, end); });
+}
+
+QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
+  return QGauss<1>(n_points(lagrange.size() - 1, end / begin));
 }
 
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
-  const RadialRule rule =
-      graded_rule(begin, end, QGauss<1>(n_points(lagrange.size() - 1, end / begin)));
+  const RadialRule rule = graded_rule(begin, end, gauss(begin, end));
   RadialShapes shapes;
   const PotentialShapes potential_shapes(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;

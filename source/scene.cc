@@ -194,6 +194,12 @@ double possible_half_width(const Scene& scene, double distance, unsigned int ang
 
 } // namespace
 
+std::string force_not_finite_at(const Scene& scene, double r, double z) {
+  std::ostringstream text;
+  text << "Cylinder/Radial force is not finite at r = " << r * scene.unit << ", z = " << z;
+  return text.str();
+}
+
 Scene make_scene(const Parameters& parameters) {
   check_certificate(parameters);
   check_cylinder(parameters);

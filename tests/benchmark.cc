@@ -128,8 +128,9 @@ void benchmark_errors(const PaperScene& paper, const char* mesh,
     certify(space, scene, solution.problem, solution.contact, solution.displacement, system, work);
     certificate.push_back((timer.wall_time() - solve.back()) / solve.back() - indicator.back());
   }
-  std::printf("%6d %6d %9s %9u %10.4f %10.2f %12.2f\n", paper.figure, parameters.mesh.degree, mesh,
-              solved.result.mesh.dofs, median(solve), median(indicator), median(certificate));
+  std::printf("%6d %6d %9s %9u %10.4f %10.2f %12.2f  %s\n", paper.figure, parameters.mesh.degree,
+              mesh, solved.result.mesh.dofs, median(solve), median(indicator), median(certificate),
+              parameters.cylinder.radial_force.c_str());
   std::fflush(stdout);
 }
 
@@ -151,7 +152,7 @@ int main() {
   }
   std::printf("\nMedians of 5 runs; solve from the degrees of freedom to the displacement, the "
               "others over it.\n"
-              "figure degree      mesh  unknowns  solve [s]  indicator  certificate\n");
+              "figure degree      mesh  unknowns  solve [s]  indicator  certificate  force\n");
   for (const int figure : {0, 1, 2}) {
     const PaperScene& paper = paper_scenes()[figure];
     benchmark_errors(paper, "uniform",
@@ -162,5 +163,14 @@ int main() {
       benchmark_errors(paper, "adaptive",
                        {degree, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
                         "Mesh/Adaptive cycles=1000", "Mesh/Most unknowns=60000"});
+  }
+  // Expressions: smooth, with a jump on a circle, with a jump around a spot.
+  for (const char* force :
+       {"1+0.5*r*cos(z)", "if(r<0.7123,1,0)", "if((r-0.7)^2+(z-3)^2<0.01,1,0)"}) {
+    const std::string key = std::string("Cylinder/Radial force=") + force;
+    benchmark_errors(paper_scenes()[0], "uniform",
+                     {key, "Mesh/Degree=1", "Mesh/Radial cells=88", "Mesh/Angular cells=1112"});
+    benchmark_errors(paper_scenes()[0], "uniform",
+                     {key, "Mesh/Degree=2", "Mesh/Radial cells=44", "Mesh/Angular cells=556"});
   }
 }

@@ -213,7 +213,8 @@ TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
 TEST(Certificate, HoldsForForcesWithKinks) {
   // No contact, so that the finest solution's certified bounds enclose J for the coarser ones.
   for (const std::string force :
-       {"sin(3*z)*r^2", "abs(z-3)", "if(r<0.7123,1,0)*if(z<2,1,-1)", "sin(9*z)*exp(40*(r-1))"}) {
+       {"sin(3*z)*r^2", "abs(z-3)", "if(r<0.7123,1,0)*if(z<2,1,-1)", "sin(9*z)*exp(40*(r-1))",
+        "if((r-0.7)^2+(z-3)^2<0.01,1,0)", "exp(-((z-4.7)/0.003)^2)"}) {
     const auto solve = [&](const std::string& key, int times) {
       const Parameters parameters = parameters_of(
           {"Cylinder/Radial force=" + force, "Road/Distance=1.95", "Mesh/Radial cells=3",

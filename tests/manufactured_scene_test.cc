@@ -94,9 +94,9 @@ TEST(SmoothSolution, ConvergesWithTheOrderOfTheDegree) {
       a, b);
   for (const int degree : {1, 2, 3}) {
     std::vector<double> errors;
-    for (const int refinements : {1, 2}) {
+    for (const int refinements : {0, 1}) {
       const Parameters parameters = parameters_of(
-          {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=3", "Mesh/Angular cells=12",
+          {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4", "Mesh/Angular cells=16",
            "Mesh/Global refinements=" + std::to_string(refinements)});
       const Result result = simulate(scene, parameters).result;
       EXPECT_EQ(result.patch.active_nodes, 0u);

@@ -1,0 +1,129 @@
+// f_0 in place of the force, and its integral G(r, z) = int_r^b rho f_0 drho.
+#include "contact_free.h"
+#include "errors.h"
+#include "floating_point.h"
+#include "force_columns.h"
+#include "scene.h"
+#include "test_scenes.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+using namespace rollwave;
+
+namespace {
+
+constexpr double a = 0.5, b = 1;
+
+/// A force of the scene of figure 4 on a uniform mesh.
+struct Force {
+  Force(const std::string& expression, unsigned int radial_cells, unsigned int angular_cells)
+      : parameters(with(paper_scenes()[0].parameters(),
+                        {"Cylinder/Radial force=" + expression, "Mesh/Degree=1",
+                         "Mesh/Radial cells=" + std::to_string(radial_cells),
+                         "Mesh/Angular cells=" + std::to_string(angular_cells)})),
+        scene(make_scene(parameters)), mesh(scene, parameters), interpolant(mesh.space, scene) {}
+
+  double integral(double r, double z) const {
+    std::vector<double> values;
+    ForceAtRadii({r}).integrals(interpolant.column(z), values);
+    return values[0];
+  }
+
+  const Parameters parameters;
+  const Scene scene;
+  const Discretisation mesh;
+  const ForceInterpolant interpolant;
+};
+
+/// ||G - G_0|| in the norm of int w^2 / r dr dz, by midpoints.
+double distance(const Force& force, const std::function<double(double, double)>& exact) {
+  const unsigned int n = 400;
+  const double height = (b - a) / n, length = 2 * dealii::numbers::PI / n;
+  std::vector<double> radii, values;
+  for (unsigned int q = 0; q < n; ++q)
+    radii.push_back(a + (q + 0.5) * height);
+  ForceAtRadii at_radii(radii);
+  double squared = 0;
+  for (unsigned int p = 0; p < n; ++p) {
+    const double z = (p + 0.5) * length;
+    at_radii.integrals(force.interpolant.column(z), values);
+    for (unsigned int q = 0; q < n; ++q)
+      squared += height * length / radii[q] * std::pow(values[q] - exact(radii[q], z), 2);
+  }
+  return std::sqrt(squared);
+}
+
+} // namespace
+
+TEST(ForceInterpolant, IsExactForPolynomials) {
+  const Force force("r^2*(z-3)^3-r+2", 3, 36);
+  EXPECT_LT(force.interpolant.error(), 1e-13);
+  for (const double z : {0.01, 1., 2.9, 4.4, 6.28})
+    for (const double r : {a, 0.51, 0.77, 0.999, b}) {
+      const double exact =
+          std::pow(z - 3, 3) * (1 - std::pow(r, 4)) / 4 - (1 - std::pow(r, 3)) / 3 + (1 - r * r);
+      EXPECT_NEAR(force.integral(r, z), exact, 1e-13) << r << " " << z;
+      EXPECT_NEAR(force.integral(r, z + 2 * dealii::numbers::PI), exact, 1e-12);
+    }
+}
+
+TEST(ForceInterpolant, IsTheForceWhenThatIsANumber) {
+  const Force force("3", 3, 36);
+  EXPECT_TRUE(force.interpolant.is_exact());
+  EXPECT_EQ(force.interpolant.error(), 0);
+  for (const double r : {a, 0.77, b})
+    EXPECT_NEAR(force.integral(r, 5), 3 * (b - r) * (b + r) / 2, 1e-15);
+}
+
+TEST(ForceInterpolant, ResolvesSmoothForces) {
+  EXPECT_LT(Force("1+0.5*r*cos(z)", 3, 36).interpolant.error(), 1e-9);
+  EXPECT_LT(Force("sin(9*z)*exp(40*(r-1))", 12, 144).interpolant.error(), 1e-6);
+}
+
+// int (G - G_0) w_r dr dz = int r (f - f_0) w dr dz, so that Friedrichs' inequality for w_r = (G -
+// G_0) / r bounds one distance by the other.
+TEST(ForceInterpolant, TellsItsErrorAtKinksAndJumps) {
+  const double friedrichs = std::sqrt(contact_free_unit_displacement(a, b, b));
+  const struct {
+    const char* expression;
+    std::function<double(double, double)> integral;
+  } forces[] = {
+      {"abs(z-3)", [](double r, double z) { return std::abs(z - 3) * (b * b - r * r) / 2; }},
+      {"if(r<0.7123,1,0)",
+       [](double r, double) { return std::max(0., 0.7123 * 0.7123 - r * r) / 2; }},
+      {"if(z<2,1,-1)", [](double r, double z) { return (z < 2 ? 1 : -1) * (b * b - r * r) / 2; }},
+      {"if(r<0.8+0.1*sin(z),1,0)", [](double r, double z) {
+         const double end = 0.8 + 0.1 * std::sin(z);
+         return std::max(0., end * end - r * r) / 2;
+       }}};
+  for (const auto& [expression, integral] : forces) {
+    double last = 0.3;
+    for (const unsigned int refinement : {1, 8, 32}) {
+      const Force force(expression, 3 * refinement, 36 * refinement);
+      const double error = force.interpolant.error();
+      EXPECT_LT(error, std::max(last / 1.5, 1e-9)) << expression;
+      EXPECT_LE(distance(force, integral), 1.02 * friedrichs * error + 1e-9) << expression;
+      last = error;
+    }
+  }
+}
+
+TEST(ForceInterpolant, SeesWhatTheMeshSees) {
+  // A load on a hundredth of the angle between two points of coarse panels.
+  const Force force("exp(-((z-4.7)/0.003)^2)", 2, 5000);
+  for (const double z : {4.69, 4.697, 4.7, 4.702})
+    EXPECT_NEAR(force.integral(a, z),
+                std::exp(-std::pow((z - 4.7) / 0.003, 2)) * (b * b - a * a) / 2, 1e-6);
+}
+
+TEST(ForceInterpolant, RefusesForcesThatAreNotFinite) {
+  const UntrappedFloatingPoint root_of_a_negative_number;
+  // Not on the ring's middle circle, where the expression is tried when it is read.
+  EXPECT_THROW(Force("sqrt(r-0.6)", 3, 36), BadInput);
+}
