@@ -78,7 +78,7 @@ TEST(ForceInterpolant, IsTheForceWhenThatIsANumber) {
   EXPECT_TRUE(force.interpolant.is_exact());
   EXPECT_EQ(force.interpolant.error(), 0);
   for (const double r : {a, 0.77, b})
-    EXPECT_NEAR(force.integral(r, 5), 3 * (b - r) * (b + r) / 2, 1e-15);
+    EXPECT_NEAR(force.integral(r, 5), 3 * (b - r) * (b + r) / 2, 1e-14);
 }
 
 TEST(ForceInterpolant, ResolvesSmoothForces) {
