@@ -18,7 +18,8 @@ using namespace dealii;
 namespace {
 
 constexpr unsigned int n = ForcePiece::n_coefficients;
-constexpr double tolerance = 1e-13;
+constexpr double tolerance = 1e-13; ///< of f_0
+constexpr double smallest = 1e-12;  ///< panel, over its distance from the origin
 
 const std::vector<Polynomials::Polynomial<double>>& legendre() {
   static const auto polynomials = Polynomials::Legendre::generate_complete_basis(n - 1);
@@ -87,10 +88,14 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
       add(i);
   const double allowed = tolerance * tolerance * norm_squared;
   const unsigned int most_panels = 2 * panels.size() + triangulation.n_global_active_cells() / 64;
-  while (worst.top().first * panels.size() > allowed && panels.size() < most_panels) {
+  while (!worst.empty() && worst.top().first * panels.size() > allowed &&
+         panels.size() < most_panels) {
     const unsigned int i = worst.top().second;
     worst.pop();
-    halve(i, rougher_direction(panels[i].coefficients));
+    const unsigned int direction = rougher_direction(panels[i].coefficients);
+    if (panels[i].high[direction] - panels[i].low[direction] < smallest * panels[i].high[direction])
+      continue; // a jump between neighbouring numbers
+    halve(i, direction);
     for (const unsigned int half : {0, 1})
       add(panels[i].first_half + half);
   }

@@ -114,8 +114,19 @@ TEST(ForceInterpolant, TellsItsErrorAtKinksAndJumps) {
   }
 }
 
+TEST(ForceInterpolant, StopsBetweenNeighbouringNumbers) {
+  // Room for more panels than a jump on a straight line can use.
+  const Force force("if(z<2,1,-1)", 8, 4000);
+  EXPECT_LT(force.interpolant.error(), 1e-5);
+  for (const double z : {1.5, std::nextafter(2., 1.), 2., std::nextafter(2., 3.), 2.5})
+    for (const double r : {a, 0.6, 0.9999})
+      EXPECT_LE(std::abs(force.integral(r, z)), 3 * (b * b - r * r) / 2) << z;
+  EXPECT_NEAR(force.integral(0.6, 1.999999), 0.32, 1e-12);
+  EXPECT_NEAR(force.integral(0.6, 2.000001), -0.32, 1e-12);
+}
+
 TEST(ForceInterpolant, SeesWhatTheMeshSees) {
-  // A load on a hundredth of the angle between two points of coarse panels.
+  // A load on a few cells, where larger panels have no point.
   const Force force("exp(-((z-4.7)/0.003)^2)", 2, 5000);
   for (const double z : {4.69, 4.697, 4.7, 4.702})
     EXPECT_NEAR(force.integral(a, z),
