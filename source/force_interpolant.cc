@@ -19,7 +19,7 @@ namespace {
 
 constexpr unsigned int n = ForcePiece::n_coefficients;
 constexpr double tolerance = 1e-13; ///< of f_0
-constexpr double smallest = 1e-12;  ///< panel, over its distance from the origin
+constexpr double smallest = 4e-15;  ///< panel, over its distance from the origin
 
 const std::vector<Polynomials::Polynomial<double>>& legendre() {
   static const auto polynomials = Polynomials::Legendre::generate_complete_basis(n - 1);
