@@ -234,6 +234,22 @@ TEST(Certificate, HoldsForForcesWithKinks) {
   }
 }
 
+TEST(Certificate, IsTheSameForANumberAndAnExpressionOfItsValue) {
+  for (const int degree : {1, 2}) {
+    const auto certify_force = [&](const std::string& force) {
+      const Parameters parameters =
+          parameters_of({"Cylinder/Radial force=" + force, "Mesh/Degree=" + std::to_string(degree),
+                         "Road/Contact zone=4, 5.4", "Mesh/Radial cells=4", "Mesh/Angular cells=40",
+                         "Mesh/Adaptive cycles=3"});
+      return *simulate(make_scene(parameters), parameters).result.certified;
+    };
+    const CertifiedError number = certify_force("2"), expression = certify_force("2+0*abs(z-3)");
+    EXPECT_NEAR(expression.energy_norm / number.energy_norm, 1, 1e-7);
+    EXPECT_NEAR(expression.lower_bound / number.lower_bound, 1, 1e-10);
+    EXPECT_NEAR(expression.upper_bound / number.upper_bound, 1, 1e-10);
+  }
+}
+
 TEST(LoadBounds, EncloseTheExactLoad) {
   for (const char* scene_key : {"Cylinder/Angular velocity=0.5", "Cylinder/Angular velocity=1",
                                 "Cylinder/Radial force=1", "Road/Contact zone=4.5, 4.95"}) {
