@@ -7,6 +7,8 @@
 
 namespace rollwave {
 
+struct BubbleColumns;
+
 /**
  * What enriches a potential psi of degree p (DualPotential) by one degree in z, and the contact
  * pressures lambda with it. On each cell
@@ -26,10 +28,10 @@ namespace rollwave {
 class AngularBubbles {
 public:
   /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param columns as for DualPotential
+  /// @param force_columns as for DualPotential
   AngularBubbles(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
                  const FieldVector& potential, const std::vector<EdgePressure>& pressures,
-                 ForceColumns* columns);
+                 ForceColumns* force_columns, const BubbleColumns& columns);
 
   /// g at the radial Gauss-Lobatto points of a cell with the degrees of freedom @p dofs, the radial
   /// index running fastest.

@@ -36,6 +36,9 @@ public:
   /// A^-1 b, after factorise(); b itself in rows of zeros.
   std::vector<double> solve(std::vector<double> b) const;
 
+  /// L^-T b, after factorise(), where L has no entries in rows of zeros.
+  std::vector<double> solve_transposed(std::vector<double> b) const;
+
 private:
   unsigned int stride;         ///< w + 1
   std::vector<double> entries; ///< of the upper triangle by rows, and w rows of zeros to read from

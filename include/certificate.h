@@ -28,13 +28,12 @@ struct MeshSystem;
  *     int [ r alpha (psi_s + v_z)^2 + r ((G - psi_z)/r - v_r)^2 ] dr dz.
  *
  * G = int_r^b rho f_0 drho is the integral of the force f or, where that is not uniform, of a
- * ForceInterpolant f_0, and (f_0, v) = int G v_r dr dz. Friedrichs' inequality
+ * ForceInterpolant f_0, and (f_0, v) = int G v_r dr dz. With (f - f_0, w) <= epsilon |w| for all w,
+ * |w|^2 = a(w, w), a(v - u, v - u)^(1/2) <= epsilon + (epsilon^2 + eta^2)^(1/2), and the bounds of
+ * J open accordingly. What Gauss' rules miss of G is added to eta, and opens the bounds of J too:
+ * missed_moment(). Where nothing better is known of w there is Friedrichs' inequality
  *
- *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   |w|^2 = a(w, w),
- *
- * the norm ||w|| being that of int r w^2 dr dz, gives a(v - u, v - u)^(1/2) <= C delta + (C^2
- * delta^2 + eta^2)^(1/2) with delta = ||f - f_0||, and the bounds of J open accordingly. What
- * Gauss' rules miss of G is added to eta, and opens the bounds of J too: missed_moment().
+ *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   ||w||^2 = int r w^2 dr dz.
  *
  * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
  * road with degree + 6 points. The bound assumes that these resolve phi, and that the finer points
@@ -47,7 +46,8 @@ struct Certificate {
 };
 
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
-/// space, whose dual potential is made here when it lacks, and dropped unless the system is kept.
+/// space, with the load of the scene. Its dual parts are made here when it lacks them, and dropped
+/// unless the system is kept.
 /// @throws NotSolved when memory is short.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,

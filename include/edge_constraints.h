@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_EDGE_CONSTRAINTS_H
 #define ROLLWAVE_EDGE_CONSTRAINTS_H
 
+#include "ring_space.h"
+
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/lac/affine_constraints.h>
 
@@ -23,7 +25,7 @@ using RadialShapeValues = std::function<std::vector<double>(double r, double beg
  * the second side follow those of the first. Degrees of freedom that are constrained already are
  * left as they are.
  */
-void tie_edges(const dealii::DoFHandler<2>& handler, const RadialShapeValues& shapes, double growth,
+void tie_edges(const RingSpace& space, const RadialShapeValues& shapes, double growth,
                dealii::AffineConstraints<double>& constraints);
 
 /// The nodes on an edge from its first vertex to its second.

@@ -3,10 +3,10 @@
 
 #include "force_interpolant.h"
 #include "interval_map.h"
+#include "radial_shapes.h"
 
 #include <deal.II/base/quadrature.h>
 
-#include <array>
 #include <vector>
 
 namespace rollwave {
@@ -21,20 +21,39 @@ public:
   void integrals(const ForceColumn& column, std::vector<double>& values);
 
 private:
-  /// The integrals of Legendre's polynomials of a piece from a radius to the piece's end.
   struct Weights {
     double begin = 0, end = 0; ///< of the piece; 0 before the first
-    std::array<double, ForcePiece::n_coefficients> integrals;
+    ForcePiece::Coefficients integrals;
   };
-
-  static void prepare(Weights& at, double r, const ForcePiece& piece);
 
   const std::vector<double> radii;
   std::vector<Weights> weights; ///< for the pieces met last
+  unsigned int first_piece = 0; ///< their first one's number
 };
 
-/// The lines z = const and the radii at which the cells of a mesh need a force, many of which they
-/// have in common: each is made when first asked for.
+/// int G psi_i / r dr over a radial interval, psi_i the potential's shape functions, on one line z
+/// = const after another: where f_0 has one piece there, from its coefficients.
+class ForceLoads {
+public:
+  /// @p radial stays where it is
+  explicit ForceLoads(const RadialShapes& radial);
+
+  void integrate(const ForceColumn& column, std::vector<double>& loads);
+
+private:
+  void prepare(const ForcePiece& piece);
+
+  const RadialShapes& radial;
+  ForceAtRadii at_radii;
+  std::vector<double> moments; ///< G at the radii
+  unsigned int recent_piece = 0;
+  double begin = 0, end = 0; ///< of the piece prepared last
+  std::vector<double> of_outside;
+  std::vector<ForcePiece::Coefficients> of_coefficients;
+};
+
+/// The lines z = const and the radial intervals at which the cells of a mesh need a force, many of
+/// which they have in common: each is made when first asked for.
 class ForceColumns {
 public:
   /// @param rule for a cell's angular interval [0, 1]: the lines are at its points
@@ -44,17 +63,26 @@ public:
   /// Those of the angular interval [begin, end].
   const std::vector<ForceColumn>& on(double begin, double end);
 
-  /// Any other.
-  ForceColumn at(double z) const { return force.column(z); }
+  /// Any other, beyond the radius @p begin.
+  ForceColumn at(double z, double begin) const { return force.column(z, begin); }
 
-  /// For @p radii that belong to the radial interval [begin, end].
-  ForceAtRadii& at_radii(double begin, double end, const std::vector<double>& radii);
+  /// On the radial interval [begin, end], whose shapes are @p radial.
+  ForceAtRadii& at_radii(double begin, double end, const RadialShapes& radial);
+  ForceLoads& loads(double begin, double end, const RadialShapes& radial);
+
+  /// Whether the force is a number, the same on all lines.
+  bool has_equal_lines() const { return force.is_exact(); }
+
+  /// G at the radii of @p radial on all lines, when they are equal.
+  const std::vector<double>& equal_integrals(double begin, double end, const RadialShapes& radial);
 
 private:
   const ForceInterpolant& force;
   const dealii::Quadrature<1> rule;
   IntervalMap<std::vector<ForceColumn>> columns;
   IntervalMap<ForceAtRadii> known_radii;
+  IntervalMap<ForceLoads> known_loads;
+  IntervalMap<std::vector<double>> known_integrals;
 };
 
 } // namespace rollwave

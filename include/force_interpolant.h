@@ -1,28 +1,16 @@
 #ifndef ROLLWAVE_FORCE_INTERPOLANT_H
 #define ROLLWAVE_FORCE_INTERPOLANT_H
 
+#include "force_piece.h"
 #include "ring_space.h"
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <array>
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
-
-/// f_0 on a line z = const, from one radius to another.
-struct ForcePiece {
-  static constexpr unsigned int n_coefficients = 8;
-
-  double begin, end;                               ///< radii
-  std::array<double, n_coefficients> coefficients; ///< of rho f_0, by Legendre polynomials in r
-  double outside;                                  ///< G(end, z)
-};
-
-/// f_0 on a line z = const, from the hub outwards.
-using ForceColumn = std::vector<ForcePiece>;
 
 /**
  * A piecewise polynomial f_0 in place of the force f, with an integral
@@ -30,7 +18,18 @@ using ForceColumn = std::vector<ForcePiece>;
  *     G(r, z) = int_r^b rho f_0(rho, z) drho
  *
  * that is known everywhere: on each of a number of panels, which cover the ring, rho f_0 is the
- * polynomial of degree 7 in each direction that equals rho f at Gauss' points.
+ * polynomial of degree 7 in each direction that equals rho f at Gauss' points, but for a constant
+ * that gives m = rho (f - f_0) the mean zero.
+ *
+ * m is a function of r, one of z, and a rest, such that all means of these over r, over z, or over
+ * both vanish where they are not constant. Poincare's inequality on intervals thus bounds (f - f_0,
+ * w) on a panel h_r high and h_z long by |w|, |w|^2 = a(w, w), times the root of
+ *
+ *     h_r^2 / (pi^2 r) ||m_r||^2 + h_z^2 / (pi^2 r alpha) ||m_z||^2 + the lesser factor ||rest||^2,
+ *
+ * r and r alpha being the least on the panel. Friedrichs' inequality (Certificate), blind for
+ * panels, takes m_z where alpha vanishes, and the constant, which tells how far the mean is known.
+ * Norms and means are taken on half as many points again in each direction.
  *
  * Panels are halved until each has a small share of the mesh's cells, then the worst first until
  * f_0 is f but for round-off, as many as the mesh pays for.
@@ -41,12 +40,13 @@ public:
   /// @throws BadInput where f is not finite
   ForceInterpolant(const RingSpace& space, const Scene& scene);
 
-  ForceColumn column(double z) const;
+  /// The pieces of a line beyond the radius @p begin.
+  ForceColumn column(double z, double begin = 0) const;
 
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }
 
-  /// ||f - f_0|| in the norm of int r w^2 dr dz, taken on twice as many points in each direction.
+  /// A bound of (f - f_0, w) / |w| for all w, |w|^2 = a(w, w).
   double error() const;
 
 private:
@@ -55,19 +55,29 @@ private:
     unsigned int first_half = 0;             ///< among the panels, the second follows; 0: is whole
     unsigned int direction = 0;              ///< in which it was halved
     dealii::FullMatrix<double> coefficients; ///< of rho f_0, in r and z
-    double error_squared = 0, norm_squared = 0;
+    double local_squared = 0, global_squared = 0; ///< of the error, by Poincare and by Friedrichs
+    double norm_squared = 0;                      ///< int r f^2 dr dz
+  };
+
+  /// Legendre's polynomials at one angle for the panels of an angular interval, which many panels
+  /// along r have in common.
+  struct AngularValues {
+    double begin = 0, end = 0;
+    ForcePiece::Coefficients legendre;
   };
 
   /// Halves the panels that have more than their share of the cells.
   void halve_where_fine(const dealii::Triangulation<2>& triangulation);
 
   void halve(unsigned int panel, unsigned int direction);
-  void collect(unsigned int panel, double z, ForceColumn& column) const;
+  void collect(unsigned int panel, double z, double begin, AngularValues& angular,
+               ForceColumn& column) const;
 
-  static void interpolate(const Scene& scene, Panel& panel);
+  void interpolate(const Scene& scene, Panel& panel) const;
 
   const bool exact;
-  std::vector<Panel> panels; ///< the ring first, halves after their whole
+  const double friedrichs_squared; ///< C^2 of ||w|| <= C |w|
+  std::vector<Panel> panels;       ///< the ring first, halves after their whole
 };
 
 } // namespace rollwave

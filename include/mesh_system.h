@@ -1,8 +1,11 @@
 #ifndef ROLLWAVE_MESH_SYSTEM_H
 #define ROLLWAVE_MESH_SYSTEM_H
 
+#include "bubble_columns.h"
 #include "dual_potential.h"
 #include "solver_choice.h"
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <memory>
 #include <optional>
@@ -10,11 +13,32 @@
 
 namespace rollwave {
 
+/// What the certificates of scenes on one mesh with one speed and one force share.
+struct DualParts {
+  /// @param force the text of the scene's force, empty without force
+  DualParts(const RingSpace& space, const Scene& scene, const std::string& force);
+
+  /// Whether they are those of a scene with this force.
+  bool belong_to(const Scene& scene, const std::string& force) const;
+
+  /// Whether G has values that Gauss' rule of the element in z does not integrate exactly.
+  bool has_uneven_force() const { return interpolant && !interpolant->is_exact(); }
+
+  const double angular_velocity;
+  const std::string force;
+  RadialShapesOfMesh shapes;
+  std::optional<ForceInterpolant> interpolant; ///< nullopt without force
+  const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
+  std::optional<ForceColumns> columns;         ///< with lines at its points
+  std::optional<BubbleColumns> bubbles;        ///< made by the first certificate
+};
+
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another
 /// scene at the cost of what differs; a part that is dropped is made again.
 struct MeshSystem {
   SolverChoice stiffness; ///< its kind, which outlives the solver, is also the potential's
   std::unique_ptr<DualPotential> potential;
+  std::unique_ptr<DualParts> dual;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::string force;               ///< the text of the force that the load belongs to
   bool is_kept = true; ///< whether another scene may come; else solvers go when they have solved

@@ -2,6 +2,7 @@
 #define ROLLWAVE_RADIAL_SHAPES_H
 
 #include "interval_map.h"
+#include "scene.h"
 #include "shape_products.h"
 
 #include <deal.II/base/polynomial.h>
@@ -11,8 +12,6 @@
 #include <vector>
 
 namespace rollwave {
-
-struct Scene;
 
 /// Shape functions of one number at one point.
 struct RadialShape {
@@ -29,18 +28,23 @@ struct RadialShape {
  */
 struct RadialShapes {
   std::vector<double> r;
-  std::vector<double> weight; ///< of the rule for dr
+  std::vector<double> weight;        ///< of the rule for dr
+  std::vector<double> weight_over_r; ///< of the rule for dr / r
   std::vector<double> alpha;
   std::vector<std::vector<RadialShape>> shapes; ///< all numbers at each point
 
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;
+
+  /// int w psi_i / r dr, psi_i the potential's shape functions, by the rule.
+  void integrate_over_r(const std::vector<double>& w, std::vector<double>& integrals) const;
 };
 
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
 class RadialShapesOfMesh {
 public:
-  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
+  /// By Gauss' rules that are exact but for the factor 1/r, which they resolve far better than the
+  /// elements do.
   RadialShapesOfMesh(const Scene& scene, unsigned int degree);
 
   const RadialShapes& on(double begin, double end);
@@ -51,7 +55,7 @@ public:
 private:
   RadialShapes make(double begin, double end) const;
 
-  const Scene& scene;
+  const Scene scene;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
   IntervalMap<RadialShapes> known;
 };

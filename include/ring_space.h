@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -63,6 +64,14 @@ public:
   /// Unknowns: degrees of freedom without those that constraints tie to others.
   unsigned int n_unknowns() const { return unknowns; }
 
+  /// The least and the largest diameter of a cell, (h_r^2 + b^2 h_z^2)^(1/2).
+  std::pair<double, double> diameters() const { return least_and_largest_diameter; }
+
+  /// The cells at the surface or the seam that a process has or that are next to its own.
+  const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& outer_cells() const {
+    return at_surface_or_seam;
+  }
+
   /// All nodes on r = b by increasing angle.
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
 
@@ -100,6 +109,7 @@ public:
 
 private:
   void find_surface_nodes(const Scene& scene);
+  void look_over_cells();
   std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
                                 const FieldVector& field) const;
 
@@ -111,6 +121,8 @@ private:
   dealii::IndexSet relevant;
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
   unsigned int unknowns;
+  std::pair<double, double> least_and_largest_diameter;
+  std::vector<dealii::DoFHandler<2>::active_cell_iterator> at_surface_or_seam;
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceNode> contact;
   unsigned int first_contact = 0; ///< number of its first node in surface

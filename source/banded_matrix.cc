@@ -1,5 +1,7 @@
 #include "banded_matrix.h"
 
+#include <utility>
+
 namespace rollwave {
 
 void BandedMatrix::clear(unsigned int i) {
@@ -43,15 +45,22 @@ void BandedMatrix::factorise() {
 std::vector<double> BandedMatrix::solve(std::vector<double> b) const {
   const unsigned int n = size();
   b.resize(n + stride - 1);
-  for (unsigned int i = 0; i < n; ++i)
+  for (unsigned int i = 0; i < n; ++i) {
     for (unsigned int d = 1; d < stride; ++d)
       b[i + d] -= (*this)(i, d) * b[i];
-  for (unsigned int i = n; i-- > 0;) {
     if (const double pivot = (*this)(i, 0); pivot != 0)
       b[i] /= pivot;
+  }
+  b.resize(n);
+  return solve_transposed(std::move(b));
+}
+
+std::vector<double> BandedMatrix::solve_transposed(std::vector<double> b) const {
+  const unsigned int n = size();
+  b.resize(n + stride - 1);
+  for (unsigned int i = n; i-- > 0;)
     for (unsigned int d = 1; d < stride; ++d)
       b[i] -= (*this)(i, d) * b[i + d];
-  }
   b.resize(n);
   return b;
 }

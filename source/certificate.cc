@@ -1,7 +1,6 @@
 #include "certificate.h"
 
 #include "angular_bubbles.h"
-#include "contact_free.h"
 #include "edge_pressure.h"
 #include "force_columns.h"
 #include "mesh_system.h"
@@ -15,7 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <memory>
+#include <string>
 
 namespace rollwave {
 
@@ -95,23 +95,31 @@ public:
       psi[i] = potential(ordered[i]);
     }
     bubbles.values(ordered, g);
-    if (columns) {
+    if (!columns)
+      return;
+    if (columns->has_equal_lines())
+      equal_moments = &columns->equal_integrals(low[0], high[0], *radial);
+    else {
       lines = &columns->on(low[1], high[1]);
-      at_radii = &columns->at_radii(low[0], high[0], radial->r);
+      at_radii = &columns->at_radii(low[0], high[0], *radial);
     }
   }
 
-  /// The force on the line number @p p of the mesh's columns, and on any line of the cell; nullptr
-  /// and empty when there is none.
-  const ForceColumn* column(unsigned int p) const { return lines ? &(*lines)[p] : nullptr; }
-  ForceColumn column_at(double t) const {
-    return columns ? columns->at(low[1] + t * (high[1] - low[1])) : ForceColumn();
+  /// G at the radii of the rule, on the line number @p p of the mesh's columns and on any line of
+  /// the cell; nullptr without force.
+  const std::vector<double>* moments_on(unsigned int p) {
+    return columns && !equal_moments ? &moments_of((*lines)[p]) : equal_moments;
+  }
+  const std::vector<double>* moments_at(double t) {
+    return columns && !equal_moments
+               ? &moments_of(columns->at(low[1] + t * (high[1] - low[1]), low[0]))
+               : equal_moments;
   }
 
   /// On one line, with the correction c of v on the surface.
   LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
-                        const ForceColumn* column) {
-    const double length = high[1] - low[1];
+                        const std::vector<double>* moments) const {
+    const double length = high[1] - low[1], per_length = 1 / length;
     // Coefficients along the line of u, psi and their angular derivatives
     std::array<double, highest_degree + 1> line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
@@ -122,19 +130,17 @@ public:
         line_psi[i] += angular.value[j] * psi[i + n * j];
         line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
-      line_u_z[i] /= length;
+      line_u_z[i] *= per_length;
       line_psi[i] += length * angular.bubble * g[i];
-      line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
+      line_psi_z[i] = per_length * line_psi_z[i] + angular.mode * g[i];
     }
-    const double height = high[0] - low[0];
-    if (columns)
-      at_radii->integrals(*column, moments);
-
+    const double per_height = 1 / (high[0] - low[0]);
     LineIntegrals sums;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
-      const double xi = (r - low[0]) / height;
-      double v_r = correction.value / height, v_z = correction.slope * xi, psi_s = 0, psi_z = 0;
+      const double xi = (r - low[0]) * per_height;
+      double v_r = correction.value * per_height, v_z = correction.slope * xi;
+      double psi_s = 0, psi_z = 0;
       const RadialShape* const shapes_at = radial->shapes[q].data();
       for (unsigned int i = 0; i < n; ++i) {
         const RadialShape& shape = shapes_at[i];
@@ -143,15 +149,15 @@ public:
         psi_s += shape.potential_s * line_psi[i];
         psi_z += shape.potential * line_psi_z[i];
       }
-      double radial_flux = -psi_z / r;
-      if (columns) {
-        radial_flux += moments[q] / r;
-        sums.work_of_force += weight * moments[q] * v_r;
+      double radial_flux = -psi_z; // r tau_r
+      if (moments) {
+        radial_flux += (*moments)[q];
+        sums.work_of_force += weight * (*moments)[q] * v_r;
       }
       // tau_z = -alpha psi_s
+      const double z_part = psi_s + v_z, r_part = radial_flux - r * v_r;
       sums.bound_squared +=
-          weight * r *
-          (alpha * (psi_s + v_z) * (psi_s + v_z) + (radial_flux - v_r) * (radial_flux - v_r));
+          weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
       sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
     }
     return sums;
@@ -175,6 +181,11 @@ public:
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
+  const std::vector<double>& moments_of(const ForceColumn& column) {
+    at_radii->integrals(column, moments);
+    return moments;
+  }
+
   const FieldVector& displacement;
   const FieldVector& potential;
   const AngularBubbles& bubbles;
@@ -193,7 +204,8 @@ private:
   const RadialShapes* radial = nullptr;
   const std::vector<ForceColumn>* lines = nullptr;
   ForceAtRadii* at_radii = nullptr;
-  std::vector<double> moments; ///< G on a line
+  std::vector<double> moments;                        ///< G on a line
+  const std::vector<double>* equal_moments = nullptr; ///< of a number
 };
 
 } // namespace
@@ -203,31 +215,31 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
                     Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
-  RadialShapesOfMesh shapes(scene, degree);
-  std::optional<ForceInterpolant> force;
-  if (scene.force)
-    force.emplace(space, scene);
-  const bool has_polynomials_in_z = !force || force->is_exact();
-  const QGauss<1> gauss(has_polynomials_in_z ? degree + 1 : degree + 2), along_road(degree + 6);
-  std::optional<ForceColumns> columns;
-  if (force)
-    columns.emplace(*force, gauss);
-  ForceColumns* const uneven_columns = has_polynomials_in_z ? nullptr : &*columns;
+  const std::string force = scene.force ? system.force : "";
+  if (!system.dual || !system.dual->belong_to(scene, force))
+    system.dual = std::make_unique<DualParts>(space, scene, force);
+  DualParts& dual = *system.dual;
+  const QGauss<1>& gauss = dual.gauss;
+  const QGauss<1> along_road(degree + 6);
+  ForceColumns* const columns = dual.columns ? &*dual.columns : nullptr;
+  ForceColumns* const uneven_columns = dual.has_uneven_force() ? columns : nullptr;
 
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = edge_pressures(space, scene, contact);
-  auto& dual = system.potential;
-  if (!dual)
-    dual = std::make_unique<DualPotential>(space, system.stiffness.kind);
-  const FieldVector potential = dual->solve(scene, shapes, pressures, uneven_columns, work);
+  if (!system.potential)
+    system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
+  const FieldVector potential =
+      system.potential->solve(scene, dual.shapes, pressures, uneven_columns, work);
   if (!system.is_kept)
-    dual.reset();
+    system.potential.reset();
+  if (!dual.bubbles)
+    dual.bubbles.emplace(space, dual.shapes);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
-  const AngularBubbles bubbles(space, scene, shapes, potential, pressures, uneven_columns);
-  Integrator integrator(space, displacement, potential, bubbles, shapes,
-                        columns ? &*columns : nullptr);
+  const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures, uneven_columns,
+                               *dual.bubbles);
+  Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns);
   std::vector<AngularShapes> lines;
   for (const auto& point : gauss.get_points())
     lines.push_back(integrator.angular_shapes(point[0]));
@@ -243,9 +255,9 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     const auto face = space.surface_face(cell);
     if (!face) {
       for (unsigned int p = 0; p < gauss.size(); ++p)
-        sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.column(p)),
+        sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.moments_on(p)),
                  gauss.weight(p) * length);
-      if (has_polynomials_in_z)
+      if (!uneven_columns)
         sums.bound_squared += integrator.unseen_square();
     } else
       for (const auto& piece : trace.pieces(*face))
@@ -257,8 +269,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
           const AngularShapes angular = integrator.angular_shapes(t);
           const double pressure =
               pressures[*face](t) + integrator.surface_bubble() / scene.outer_radius * angular.mode;
-          const ForceColumn column = integrator.column_at(t);
-          sums.add(integrator.on_line(angular, correction, &column), weight);
+          sums.add(integrator.on_line(angular, correction, integrator.moments_at(t)), weight);
           contact_work += weight * scene.outer_radius * pressure * correction.gap;
         }
     sums.bound_squared += 2 * contact_work;
@@ -267,14 +278,17 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   }
   const auto [bound_squared, norm_squared, work_of_force] = total.over(space.communicator());
 
-  const double friedrichs = std::sqrt(
-      contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius));
+  const double of_flux = std::sqrt(std::max(0., bound_squared));
   double epsilon = 0, missed = 0;
   if (uneven_columns) {
-    epsilon = friedrichs * force->error();
-    missed = missed_moment(space, *force, shapes, *columns, gauss);
+    constexpr double negligible = 0.01;
+    epsilon = dual.interpolant->error();
+    missed = missed_moment(space, scene, *dual.interpolant, dual.shapes, *columns, gauss,
+                           negligible * of_flux);
   }
-  const double eta = std::sqrt(std::max(0., bound_squared)) + missed;
+  if (!system.is_kept)
+    system.dual.reset();
+  const double eta = of_flux + missed;
   const double energy_norm = epsilon + std::hypot(epsilon, eta);
   const double energy = norm_squared / 2 - work_of_force;
   const double energy_error = (epsilon + missed) * std::sqrt(norm_squared);

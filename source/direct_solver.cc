@@ -26,14 +26,22 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
     factorise(scene);
 
   const Work::Phase phase(work, "contact");
+  std::vector<double> load_of_unknowns;
+  if (load)
+    load_of_unknowns = gather(*load);
+  const bool is_known = is_reduced && load_of_unknowns == this->load;
+  this->load = std::move(load_of_unknowns);
+  if (is_known)
+    return;
   const unsigned int m = places.size();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
-    reduced_load = cholesky->forward(gather(*load));
+    reduced_load = cholesky->forward(this->load);
     ++work.forward_substitutions;
     contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
+  is_reduced = true;
 }
 
 void DirectSolver::factorise(const Scene& scene) {
@@ -42,6 +50,7 @@ void DirectSolver::factorise(const Scene& scene) {
     number_unknowns(scene);
   const unsigned int m = places.size();
   angular_velocity.reset(); // until the factor is there
+  is_reduced = false;
   schur.reset();
   {
     LowerTriplets triplets;

@@ -46,16 +46,16 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
   double growth = 0;
   const auto surface_values = surface_potential(space, pressures, growth);
   AffineConstraints<double> constraints(space.relevant_dofs());
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->at_boundary(1) || cell->is_artificial())
+  for (const auto& cell : space.outer_cells()) {
+    const auto edge = space.surface_face(cell);
+    if (!edge)
       continue;
-    const unsigned int edge = *space.surface_face(cell);
     // Not SurfaceFace::nodes, in which both sides of the seam are one.
     const auto dofs = dofs_on_edge(cell->face(1), space.dof_handler().get_fe().degree);
     for (unsigned int k = 0; k < dofs.size(); ++k)
       if (!constraints.is_constrained(dofs[k])) {
         constraints.add_line(dofs[k]);
-        constraints.set_inhomogeneity(dofs[k], surface_values[edge][k]);
+        constraints.set_inhomogeneity(dofs[k], surface_values[*edge][k]);
       }
   }
   // The mesh has many hanging nodes, but they lie at few places.
@@ -67,7 +67,7 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
           PotentialShapes(scene, space.dof_handler().get_fe().degree, begin, end).values(r);
     return entry->second;
   };
-  tie_edges(space.dof_handler(), shape_values, growth, constraints);
+  tie_edges(space, shape_values, growth, constraints);
   constraints.close();
   return constraints;
 }
@@ -136,43 +136,48 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
   FullMatrix<double> cell_matrix(n * n);
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n), cell_lift(n * n);
-  std::vector<double> integrals;
+  std::vector<double> loads(n);
   FieldVector rhs = space.make_field();
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+  const auto add_cell = [&](const DoFHandler<2>::active_cell_iterator& cell) {
     if (!cell->is_locally_owned())
-      continue;
+      return;
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
       ordered[i] = dofs[numbering[i]];
       cell_lift(i) = lift(ordered[i]);
     }
-    // Only cells at the surface and the seam feel the values prescribed there.
-    if (!columns && cell_lift.all_zero())
-      continue;
+    const bool has_lift = !cell_lift.all_zero();
+    if (!columns && !has_lift)
+      return;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const RadialShapes& radial = shapes.on(low[0], high[0]);
-    const double length = high[1] - low[1];
-    tensor_matrix(radial.products, reference, length, cell_matrix);
-    cell_matrix.vmult(cell_vector, cell_lift);
-    cell_vector *= -1;
+    cell_vector = 0;
+    if (has_lift) {
+      tensor_matrix(radial.products, reference, high[1] - low[1], cell_matrix);
+      cell_matrix.vmult(cell_vector, cell_lift);
+      cell_vector *= -1;
+    }
     if (columns) {
-      ForceAtRadii& at_radii = columns->at_radii(low[0], high[0], radial.r);
+      ForceLoads& force_loads = columns->loads(low[0], high[0], radial);
       const auto& lines = columns->on(low[1], high[1]);
       for (unsigned int p = 0; p < gauss.size(); ++p) {
-        at_radii.integrals(lines[p], integrals);
-        for (unsigned int q = 0; q < radial.r.size(); ++q) {
-          const double factor = integrals[q] / radial.r[q] * radial.weight[q] *
-                                gauss.weight(p); // d/dz and dz cancel in length
-          for (unsigned int j = 0; j < n; ++j) {
-            const double slope = angular_derivative(p, j) * factor;
-            for (unsigned int i = 0; i < n; ++i)
-              cell_vector(i + n * j) += radial.shapes[q][i].potential * slope;
-          }
+        force_loads.integrate(lines[p], loads);
+        for (unsigned int j = 0; j < n; ++j) {
+          const double slope = gauss.weight(p) * angular_derivative(p, j); // d/dz dz = d/dt dt
+          for (unsigned int i = 0; i < n; ++i)
+            cell_vector(i + n * j) += slope * loads[i];
         }
       }
     }
     constraints.distribute_local_to_global(cell_vector, ordered, rhs);
-  }
+  };
+  // Without hanging nodes only cells at the surface and the seam feel the values prescribed there.
+  if (columns || space.dof_handler().get_triangulation().has_hanging_nodes())
+    for (const auto& cell : space.dof_handler().active_cell_iterators())
+      add_cell(cell);
+  else
+    for (const auto& cell : space.outer_cells())
+      add_cell(cell);
   rhs.compress(VectorOperation::add);
   return rhs;
 }

@@ -1,6 +1,5 @@
 #include "edge_constraints.h"
 
-#include "ring_mesh.h"
 #include "shape_products.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -124,26 +123,21 @@ std::vector<Dof> dofs_on_edge(const DoFHandler<2>::face_iterator& face, unsigned
   return dofs;
 }
 
-void tie_edges(const DoFHandler<2>& handler, const RadialShapeValues& shapes, double growth,
+void tie_edges(const RingSpace& space, const RadialShapeValues& shapes, double growth,
                AffineConstraints<double>& constraints) {
+  const DoFHandler<2>& handler = space.dof_handler();
   const unsigned int degree = handler.get_fe().degree;
   EdgeTies ties(degree, shapes, constraints);
+  if (handler.get_triangulation().has_hanging_nodes())
+    for (const auto& cell : handler.active_cell_iterators())
+      for (const unsigned int f : cell->face_indices())
+        if (!cell->is_artificial() && cell->face(f)->has_children())
+          ties.tie_hanging_nodes(cell, f);
   std::vector<Edge> seam_begin, seam_end;
-  // Where no node hangs only the seam is left to tie.
-  const bool has_hanging_nodes = handler.get_triangulation().has_hanging_nodes();
-  for (const auto& cell : handler.active_cell_iterators()) {
-    if (cell->is_artificial() || (!has_hanging_nodes && !cell->at_boundary()))
-      continue;
-    for (const unsigned int f : cell->face_indices()) {
-      const auto face = cell->face(f);
-      if (face->has_children())
-        ties.tie_hanging_nodes(cell, f);
-      else if (face->at_boundary() && face->boundary_id() == seam_begin_id)
-        seam_begin.push_back(edge_of(face, degree));
-      else if (face->at_boundary() && face->boundary_id() == seam_end_id)
-        seam_end.push_back(edge_of(face, degree));
-    }
-  }
+  for (const auto& cell : space.outer_cells())
+    for (const unsigned int f : {2U, 3U})
+      if (cell->at_boundary(f))
+        (f == 2 ? seam_begin : seam_end).push_back(edge_of(cell->face(f), degree));
   ties.tie_seam(std::move(seam_begin), std::move(seam_end), growth);
 }
 

@@ -1,34 +1,26 @@
 #include "force_columns.h"
 
-#include <deal.II/base/polynomial.h>
-
-#include <cmath>
 #include <utility>
 
 namespace rollwave {
 
 using namespace dealii;
 
-namespace {
-
-constexpr unsigned int n = ForcePiece::n_coefficients;
-
-} // namespace
-
 ForceAtRadii::ForceAtRadii(std::vector<double> radii)
     : radii(std::move(radii)), weights(this->radii.size()) {}
 
 void ForceAtRadii::integrals(const ForceColumn& column, std::vector<double>& values) {
   values.resize(radii.size());
-  auto piece = column.begin();
+  first_piece = piece_at(column, radii.front(), first_piece);
+  auto piece = column.begin() + first_piece;
   for (unsigned int q = 0; q < radii.size(); ++q) {
     while (radii[q] > piece->end && piece + 1 != column.end())
       ++piece;
     Weights& at = weights[q];
     if (at.begin != piece->begin || at.end != piece->end)
-      prepare(at, radii[q], *piece);
+      at = {piece->begin, piece->end, legendre_integrals(piece->begin, piece->end, radii[q])};
     double even = piece->outside, odd = 0;
-    for (unsigned int k = 0; k < n; k += 2) {
+    for (unsigned int k = 0; k < ForcePiece::n_coefficients; k += 2) {
       even += piece->coefficients[k] * at.integrals[k];
       odd += piece->coefficients[k + 1] * at.integrals[k + 1];
     }
@@ -36,23 +28,50 @@ void ForceAtRadii::integrals(const ForceColumn& column, std::vector<double>& val
   }
 }
 
-void ForceAtRadii::prepare(Weights& at, double r, const ForcePiece& piece) {
-  static const auto legendre = Polynomials::Legendre::generate_complete_basis(n);
-  at.begin = piece.begin;
-  at.end = piece.end;
-  const double length = piece.end - piece.begin, t = (r - piece.begin) / length;
-  std::array<double, n + 1> scaled; // L_k / (2 k + 1)^(1/2)
-  for (unsigned int k = 0; k <= n; ++k)
-    scaled[k] = legendre[k].value(t) / std::sqrt(2 * k + 1.);
-  // int_t^1 L_k = (L_(k-1)/(2 k - 1)^(1/2) - L_(k+1)/(2 k + 3)^(1/2)) / (2 (2 k + 1)^(1/2))
-  at.integrals[0] = piece.end - r;
-  for (unsigned int k = 1; k < n; ++k)
-    at.integrals[k] = length * (scaled[k - 1] - scaled[k + 1]) / (2 * std::sqrt(2 * k + 1.));
+ForceLoads::ForceLoads(const RadialShapes& radial)
+    : radial(radial), at_radii(radial.r), of_outside(radial.shapes.front().size()),
+      of_coefficients(of_outside.size()) {}
+
+void ForceLoads::integrate(const ForceColumn& column, std::vector<double>& loads) {
+  recent_piece = piece_at(column, radial.r.front(), recent_piece);
+  const ForcePiece& piece = column[recent_piece];
+  if (radial.r.back() > piece.end) {
+    at_radii.integrals(column, moments);
+    radial.integrate_over_r(moments, loads);
+    return;
+  }
+  if (begin != piece.begin || end != piece.end)
+    prepare(piece);
+  for (unsigned int i = 0; i < loads.size(); ++i) {
+    double even = piece.outside * of_outside[i], odd = 0;
+    for (unsigned int k = 0; k < ForcePiece::n_coefficients; k += 2) {
+      even += piece.coefficients[k] * of_coefficients[i][k];
+      odd += piece.coefficients[k + 1] * of_coefficients[i][k + 1];
+    }
+    loads[i] = even + odd;
+  }
+}
+
+void ForceLoads::prepare(const ForcePiece& piece) {
+  begin = piece.begin;
+  end = piece.end;
+  const unsigned int n_q = radial.r.size(), n = of_outside.size();
+  moments.assign(n_q, 1.);
+  radial.integrate_over_r(moments, of_outside);
+  std::vector<ForcePiece::Coefficients> integrals;
+  for (const double r : radial.r)
+    integrals.push_back(legendre_integrals(begin, end, r));
+  std::vector<double> loads(n);
+  for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k) {
+    for (unsigned int q = 0; q < n_q; ++q)
+      moments[q] = integrals[q][k];
+    radial.integrate_over_r(moments, loads);
+    for (unsigned int i = 0; i < n; ++i)
+      of_coefficients[i][k] = loads[i];
+  }
 }
 
 const std::vector<ForceColumn>& ForceColumns::on(double begin, double end) {
-  if (force.is_exact()) // a number, the same on all lines
-    begin = end = 0;
   return columns.at(begin, end, [&] {
     std::vector<ForceColumn> lines;
     for (const auto& point : rule.get_points())
@@ -61,8 +80,21 @@ const std::vector<ForceColumn>& ForceColumns::on(double begin, double end) {
   });
 }
 
-ForceAtRadii& ForceColumns::at_radii(double begin, double end, const std::vector<double>& radii) {
-  return known_radii.at(begin, end, [&] { return ForceAtRadii(radii); });
+ForceAtRadii& ForceColumns::at_radii(double begin, double end, const RadialShapes& radial) {
+  return known_radii.at(begin, end, [&] { return ForceAtRadii(radial.r); });
+}
+
+const std::vector<double>& ForceColumns::equal_integrals(double begin, double end,
+                                                         const RadialShapes& radial) {
+  return known_integrals.at(begin, end, [&] {
+    std::vector<double> integrals;
+    at_radii(begin, end, radial).integrals(force.column(0), integrals);
+    return integrals;
+  });
+}
+
+ForceLoads& ForceColumns::loads(double begin, double end, const RadialShapes& radial) {
+  return known_loads.at(begin, end, [&] { return ForceLoads(radial); });
 }
 
 } // namespace rollwave

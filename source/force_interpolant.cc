@@ -1,5 +1,6 @@
 #include "force_interpolant.h"
 
+#include "contact_free.h"
 #include "errors.h"
 #include "scene.h"
 
@@ -26,9 +27,9 @@ const std::vector<Polynomials::Polynomial<double>>& legendre() {
   return polynomials;
 }
 
-/// Gauss' points of a panel in one direction, and finer ones on which f_0 is compared with f.
+/// Gauss' points of a panel in one direction, and more on which f_0 is compared with f.
 struct PanelPoints {
-  PanelPoints() : gauss(n), fine(gauss, 2), to_coefficients(n, n), to_values(fine.size(), n) {
+  PanelPoints() : gauss(n), fine(3 * n / 2), to_coefficients(n, n), to_values(fine.size(), n) {
     for (unsigned int k = 0; k < n; ++k) {
       for (unsigned int q = 0; q < n; ++q)
         to_coefficients(k, q) = gauss.weight(q) * legendre()[k].value(gauss.point(q)[0]);
@@ -37,8 +38,7 @@ struct PanelPoints {
     }
   }
 
-  QGauss<1> gauss;
-  QIterated<1> fine;
+  QGauss<1> gauss, fine;
   FullMatrix<double> to_coefficients, to_values;
 };
 
@@ -50,9 +50,9 @@ unsigned int longer_direction(const Point<2>& low, const Point<2>& high) {
 /// The direction in which the last two coefficients are larger.
 unsigned int rougher_direction(const FullMatrix<double>& coefficients) {
   double tail[] = {0, 0};
-  for (unsigned int k = 0; k < n; ++k)
-    for (unsigned int l = 0; l < n; ++l) {
-      const double square = coefficients(k, l) * coefficients(k, l);
+  for (unsigned int l = 0; l < n; ++l)
+    for (unsigned int k = 0; k < n; ++k) {
+      const double square = coefficients(l, k) * coefficients(l, k);
       if (k + 2 >= n)
         tail[0] += square;
       if (l + 2 >= n)
@@ -61,10 +61,36 @@ unsigned int rougher_direction(const FullMatrix<double>& coefficients) {
   return tail[0] > tail[1] ? 0 : 1;
 }
 
+/// The mean of what is given at the points of a product of a rule, and the mean squares of its
+/// parts without it: a function of z (rows), a function of r (columns), and the rest.
+struct MeanSquares {
+  MeanSquares(const FullMatrix<double>& values, const Quadrature<1>& rule) {
+    std::vector<double> mean_z(rule.size()), mean_r(rule.size());
+    double square = 0;
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      for (unsigned int p = 0; p < rule.size(); ++p) {
+        const double value = values(q, p), weight = rule.weight(q) * rule.weight(p);
+        mean_z[q] += rule.weight(p) * value;
+        mean_r[p] += rule.weight(q) * value;
+        mean += weight * value;
+        square += weight * value * value;
+      }
+    for (unsigned int q = 0; q < rule.size(); ++q) {
+      of_z += rule.weight(q) * std::pow(mean_z[q] - mean, 2);
+      of_r += rule.weight(q) * std::pow(mean_r[q] - mean, 2);
+    }
+    rest = std::max(0., square - mean * mean - of_z - of_r);
+  }
+
+  double mean = 0, of_z = 0, of_r = 0, rest;
+};
+
 } // namespace
 
 ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
-    : exact(scene.uniform_force.has_value()) {
+    : exact(scene.uniform_force.has_value()),
+      friedrichs_squared(contact_free_unit_displacement(scene.inner_radius, scene.outer_radius,
+                                                        scene.outer_radius)) {
   Panel ring;
   ring.low = Point<2>(scene.inner_radius, 0);
   ring.high = Point<2>(scene.outer_radius, 2 * numbers::PI);
@@ -81,13 +107,13 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
   const auto add = [&](unsigned int i) {
     interpolate(scene, panels[i]);
     norm_squared += panels[i].norm_squared;
-    worst.push({panels[i].error_squared, i});
+    worst.push({panels[i].local_squared + panels[i].global_squared, i});
   };
   for (unsigned int i = 0; i < panels.size(); ++i)
     if (panels[i].first_half == 0)
       add(i);
-  const double allowed = tolerance * tolerance * norm_squared;
-  const unsigned int most_panels = 2 * panels.size() + triangulation.n_global_active_cells() / 64;
+  const double allowed = tolerance * tolerance * friedrichs_squared * norm_squared;
+  const unsigned int most_panels = 2 * panels.size() + triangulation.n_global_active_cells() / 128;
   while (!worst.empty() && worst.top().first * panels.size() > allowed &&
          panels.size() < most_panels) {
     const unsigned int i = worst.top().second;
@@ -138,7 +164,7 @@ void ForceInterpolant::halve(unsigned int number, unsigned int direction) {
   panels.push_back(std::move(outer));
 }
 
-void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
+void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) const {
   static const PanelPoints points;
   const Tensor<1, 2> size = panel.high - panel.low;
   const auto moment = [&](double r, double t) {
@@ -150,9 +176,9 @@ void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
   const auto radius = [&](double t) { return panel.low[0] + t * size[0]; };
 
   FullMatrix<double> nodal(n), half(n);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      nodal(i, j) = moment(radius(points.gauss.point(i)[0]), points.gauss.point(j)[0]);
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int i = 0; i < n; ++i)
+      nodal(j, i) = moment(radius(points.gauss.point(i)[0]), points.gauss.point(j)[0]);
   points.to_coefficients.mmult(half, nodal);
   panel.coefficients.reinit(n, n);
   half.mTmult(panel.coefficients, points.to_coefficients);
@@ -160,58 +186,82 @@ void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
   if (scene.uniform_force)
     return;
   const unsigned int n_fine = points.fine.size();
-  FullMatrix<double> rows(n_fine, n), values(n_fine, n_fine);
+  FullMatrix<double> rows(n_fine, n), missed(n_fine, n_fine);
   points.to_values.mmult(rows, panel.coefficients);
-  rows.mTmult(values, points.to_values);
-  panel.error_squared = panel.norm_squared = 0;
-  for (unsigned int p = 0; p < n_fine; ++p) {
-    const double r = radius(points.fine.point(p)[0]);
-    for (unsigned int q = 0; q < n_fine; ++q) {
+  rows.mTmult(missed, points.to_values);
+  panel.norm_squared = 0;
+  for (unsigned int q = 0; q < n_fine; ++q)
+    for (unsigned int p = 0; p < n_fine; ++p) {
+      const double r = radius(points.fine.point(p)[0]);
       const double exact_value = moment(r, points.fine.point(q)[0]);
-      const double error = exact_value - values(p, q);
-      const double weight = points.fine.weight(p) * points.fine.weight(q) * size[0] * size[1] / r;
-      panel.error_squared += weight * error * error;
-      panel.norm_squared += weight * exact_value * exact_value;
+      missed(q, p) = exact_value - missed(q, p);
+      panel.norm_squared += size[0] * size[1] * points.fine.weight(p) * points.fine.weight(q) *
+                            exact_value * exact_value / r;
     }
-  }
+  const MeanSquares squares(missed, points.fine);
+  panel.coefficients(0, 0) += squares.mean;
+
+  // Factors of the squares; the speed may be a rounding beyond the critical one.
+  const double by_norm = friedrichs_squared / panel.low[0];
+  const double by_r = std::pow(size[0] / numbers::PI, 2) / panel.low[0];
+  const double angular_stiffness = panel.high[0] * std::max(0., scene.alpha(panel.high[0]));
+  double by_z = std::pow(size[1] / numbers::PI, 2);
+  const bool is_local = by_z < by_norm * angular_stiffness;
+  by_z = is_local ? by_z / angular_stiffness : by_norm;
+  const double local =
+      by_r * squares.of_r + (is_local ? std::min(by_r, by_z) : by_r) * squares.rest;
+  const double global = by_norm * squares.mean * squares.mean;
+  panel.local_squared = size[0] * size[1] * (local + (is_local ? by_z * squares.of_z : 0));
+  panel.global_squared = size[0] * size[1] * (global + (is_local ? 0 : by_z * squares.of_z));
 }
 
-ForceColumn ForceInterpolant::column(double z) const {
+ForceColumn ForceInterpolant::column(double z, double begin) const {
   ForceColumn pieces;
-  collect(0, std::fmod(z, 2 * numbers::PI), pieces);
+  AngularValues angular;
+  collect(0, std::fmod(z, 2 * numbers::PI), begin, angular, pieces);
   for (unsigned int i = pieces.size(); i-- > 1;)
     pieces[i - 1].outside =
         pieces[i].outside + (pieces[i].end - pieces[i].begin) * pieces[i].coefficients[0];
   return pieces;
 }
 
-void ForceInterpolant::collect(unsigned int number, double z, ForceColumn& column) const {
+void ForceInterpolant::collect(unsigned int number, double z, double begin, AngularValues& angular,
+                               ForceColumn& column) const {
   const Panel& panel = panels[number];
+  if (panel.high[0] <= begin)
+    return;
   if (panel.first_half > 0) {
     const bool all = panel.direction == 0;
     const bool is_outer = z >= panels[panel.first_half].high[1];
     if (all || !is_outer)
-      collect(panel.first_half, z, column);
+      collect(panel.first_half, z, begin, angular, column);
     if (all || is_outer)
-      collect(panel.first_half + 1, z, column);
+      collect(panel.first_half + 1, z, begin, angular, column);
     return;
   }
-  ForcePiece piece{panel.low[0], panel.high[0], {}, 0};
-  const double t = (z - panel.low[1]) / (panel.high[1] - panel.low[1]);
-  for (unsigned int l = 0; l < n; ++l) {
-    const double value = legendre()[l].value(t);
-    for (unsigned int k = 0; k < n; ++k)
-      piece.coefficients[k] += panel.coefficients(k, l) * value;
+  if (angular.begin != panel.low[1] || angular.end != panel.high[1]) {
+    angular.begin = panel.low[1];
+    angular.end = panel.high[1];
+    for (unsigned int l = 0; l < n; ++l)
+      angular.legendre[l] =
+          legendre()[l].value((z - angular.begin) / (angular.end - angular.begin));
   }
-  column.push_back(piece);
+  ForcePiece::Coefficients coefficients = {};
+  const double* of_panel = &panel.coefficients(0, 0); // by rows
+  for (const double value : angular.legendre)
+    for (double& coefficient : coefficients)
+      coefficient += value * *of_panel++;
+  column.push_back({panel.low[0], panel.high[0], coefficients, 0});
 }
 
 double ForceInterpolant::error() const {
-  double squared = 0;
+  double local = 0, global = 0;
   for (const Panel& panel : panels)
-    if (panel.first_half == 0)
-      squared += panel.error_squared;
-  return std::sqrt(squared);
+    if (panel.first_half == 0) {
+      local += panel.local_squared;
+      global += panel.global_squared;
+    }
+  return std::sqrt(local) + std::sqrt(global);
 }
 
 } // namespace rollwave

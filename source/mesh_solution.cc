@@ -18,23 +18,13 @@ using namespace dealii;
 namespace {
 
 MeshFigures describe_mesh(const RingSpace& space) {
-  const auto& triangulation = space.dof_handler().get_triangulation();
-  MeshFigures figures = {space.dof_handler().get_fe().degree,
-                         static_cast<unsigned int>(triangulation.n_global_active_cells()),
-                         space.n_unknowns(),
-                         static_cast<unsigned int>(space.contact_nodes().size()),
-                         std::numeric_limits<double>::max(),
-                         0};
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned()) {
-      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
-      const double diameter = std::hypot(size[0], space.outer_radius() * size[1]);
-      figures.h_min = std::min(figures.h_min, diameter);
-      figures.h_max = std::max(figures.h_max, diameter);
-    }
-  figures.h_min = Utilities::MPI::min(figures.h_min, space.communicator());
-  figures.h_max = Utilities::MPI::max(figures.h_max, space.communicator());
-  return figures;
+  const auto& handler = space.dof_handler();
+  return {handler.get_fe().degree,
+          static_cast<unsigned int>(handler.get_triangulation().n_global_active_cells()),
+          space.n_unknowns(),
+          static_cast<unsigned int>(space.contact_nodes().size()),
+          space.diameters().first,
+          space.diameters().second};
 }
 
 /// @p field times rounding errors of random sign and usual size.

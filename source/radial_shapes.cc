@@ -2,7 +2,6 @@
 
 #include "potential_shapes.h"
 #include "radial_rule.h"
-#include "scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,17 +12,28 @@ using namespace dealii;
 
 namespace {
 
-/// How many points leave an error of about 1e-13 in integrals of polynomials of degree 2 @p degree
-/// over r. With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them
-/// whose half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths, and n points err by
-/// rho^(2 degree - 2 n).
+/// How many points suffice for integrals of polynomials of degree 2 @p degree over r. With the
+/// ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose half-axes add
+/// up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths, and n points err by rho^(2 degree - 2 n):
+/// 1e-13, or 1e-4 of rho^(-2 degree), which is the square of what the elements miss of ln(r).
 unsigned int n_points(unsigned int degree, double ratio) {
   const double q = std::min(ratio, 2.); // graded_rule() cuts longer intervals
-  const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
-  return degree + std::max(2., std::ceil(6.5 / std::log10(rho)));
+  const double digits = std::log10(std::pow(std::sqrt(q) + 1, 2) / (q - 1)); // of rho
+  return degree + std::max(2., std::ceil(std::min(6.5 / digits, degree + 2 / digits)));
 }
 
 } // namespace
+
+void RadialShapes::integrate_over_r(const std::vector<double>& w,
+                                    std::vector<double>& integrals) const {
+  std::fill(integrals.begin(), integrals.end(), 0.);
+  for (unsigned int q = 0; q < r.size(); ++q) {
+    const double factor = w[q] * weight_over_r[q];
+    const RadialShape* const shapes_at = shapes[q].data();
+    for (unsigned int i = 0; i < integrals.size(); ++i)
+      integrals[i] += factor * shapes_at[i].potential;
+  }
+}
 
 RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
     : scene(scene), lagrange(lobatto_lagrange(degree)) {}
@@ -47,6 +57,7 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
   std::vector<double> both(2);
   for (unsigned int q = 0; q < n_q; ++q) {
     const double r = shapes.r[q];
+    shapes.weight_over_r.push_back(shapes.weight[q] / r);
     shapes.alpha.push_back(scene.alpha(r));
     const std::vector<double> values = potential_shapes.values(r);
     const std::vector<double> derivatives = potential_shapes.depth_derivatives(r);

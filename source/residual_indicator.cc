@@ -126,6 +126,42 @@ Rectangle rectangle_of(const DoFHandler<2>::active_cell_iterator& cell) {
   return {low[0], high[0], low[1], high[1]};
 }
 
+/// r f on one cell: the polynomial of a degree less than the element's that equals it at Gauss'
+/// points. What is left varies too fast for the residual to tell how large its error is.
+class ForceMoment {
+public:
+  /// @param points where it is asked for, in each direction
+  ForceMoment(unsigned int degree, const std::vector<Point<1>>& points)
+      : gauss(degree), to_points(points.size(), degree), at_gauss(degree) {
+    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
+    for (unsigned int q = 0; q < points.size(); ++q)
+      for (unsigned int i = 0; i < degree; ++i)
+        to_points(q, i) = lagrange[i].value(points[q][0]);
+  }
+
+  void reinit(const Scene& scene, const Rectangle& box) {
+    for (unsigned int j = 0; j < gauss.size(); ++j) {
+      const double z = std::fmod(box.z0 + box.length() * gauss.point(j)[0], 2 * numbers::PI);
+      for (unsigned int i = 0; i < gauss.size(); ++i) {
+        const double r = box.r0 + box.height() * gauss.point(i)[0];
+        at_gauss(j, i) = r * scene.force(r, z);
+      }
+    }
+  }
+
+  double value(unsigned int p, unsigned int q) const {
+    double sum = 0;
+    for (unsigned int j = 0; j < gauss.size(); ++j)
+      for (unsigned int i = 0; i < gauss.size(); ++i)
+        sum += to_points(p, j) * to_points(q, i) * at_gauss(j, i);
+    return sum;
+  }
+
+private:
+  const QGauss<1> gauss;
+  FullMatrix<double> to_points, at_gauss; ///< rows of the latter in z
+};
+
 /// The squares of the lengths, over r, that turn a residual into the energy norm of what a cell
 /// cannot resolve, by the direction in which that varies.
 struct Lengths {
@@ -199,6 +235,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   std::vector<double> jump(triangulation.n_raw_lines() * n);
   std::vector<double> squares(triangulation.n_active_cells());
   std::vector<Lengths> lengths(triangulation.n_active_cells());
+  ForceMoment moment(degree, points);
   FullMatrix<double> residual(n);
   Vector<double> radial_mode(n), angular_mode(n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -214,6 +251,8 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       alpha_r[q] = scene.alpha(r) * r;
     }
 
+    if (scene.force)
+      moment.reinit(scene, box);
     radial_mode = 0;
     angular_mode = 0;
     for (unsigned int p = 0; p < n; ++p) {
@@ -243,8 +282,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
           residual(p, q) += r * sum(inside.second[q], line) * per_r * per_r +
                             alpha_r[q] * sum(inside.value[q], line_zz);
         if (scene.force)
-          residual(p, q) +=
-              r * scene.force(r, std::fmod(box.z0 + h_z * points[p][0], 2 * numbers::PI));
+          residual(p, q) += moment.value(p, q);
         radial_mode(q) += highest_mode[p] * u_r;
         angular_mode(p) += highest_mode[q] * sum(inside.value[q], line_z);
       }

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace rollwave {
@@ -46,6 +47,25 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
         relevant.add_index(entry.first);
   partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
   find_surface_nodes(scene);
+  look_over_cells();
+}
+
+void RingSpace::look_over_cells() {
+  double least = std::numeric_limits<double>::max(), largest = 0;
+  for (const auto& cell : handler.active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
+    if (cell->at_boundary(1) || cell->at_boundary(2) || cell->at_boundary(3))
+      at_surface_or_seam.push_back(cell);
+    if (!cell->is_locally_owned())
+      continue;
+    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+    const double diameter = std::hypot(size[0], radius * size[1]);
+    least = std::min(least, diameter);
+    largest = std::max(largest, diameter);
+  }
+  least_and_largest_diameter = {Utilities::MPI::min(least, communicator()),
+                                Utilities::MPI::max(largest, communicator())};
 }
 
 void RingSpace::find_surface_nodes(const Scene& scene) {
@@ -143,7 +163,7 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
 
 std::optional<unsigned int>
 RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
-  if (cell->neighbor_index(1) >= 0) // quicker than at_boundary(), and asked for every cell
+  if (cell->vertex(1)[0] != radius) // quicker than at_boundary(), and asked for every cell
     return {};
   return face_from.at(cell->vertex(1)[1]);
 }

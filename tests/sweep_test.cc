@@ -66,11 +66,25 @@ TEST_P(Sweep, DoesNothingTwice) {
   const Work force = next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1"}).work;
   EXPECT_EQ(force.load_assemblies, 1u);
   EXPECT_EQ(force.factorisations, 0u);
+  EXPECT_EQ(force.forward_substitutions, is_direct ? 2u : 0u); // for K and for the certificate
   const Work same_force =
       next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1", "Road/Distance=0.9"})
           .work;
   EXPECT_EQ(same_force.load_assemblies, 0u);
+  EXPECT_EQ(same_force.forward_substitutions, is_direct ? 1u : 0u);
   next({zone, "Cylinder/Angular velocity=1"});
+}
+
+TEST_P(Sweep, CertifiesUnevenForcesOneAfterAnother) {
+  const std::string zone = "Road/Contact zone=3.9, 5.5";
+  const std::string smooth = "Cylinder/Radial force=1+0.5*r*cos(z)",
+                    jump = "Cylinder/Radial force=if(r<0.8,1,z-3)";
+  next({zone, smooth});
+  next({zone, smooth, "Road/Distance=0.85"});
+  next({zone, smooth, "Cylinder/Angular velocity=1"});
+  next({zone, jump, "Cylinder/Angular velocity=1"});
+  next({zone, jump, "Road/Distance=0.85"});
+  next({zone});
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Sweep, testing::Values("direct", "iterative"),

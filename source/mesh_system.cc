@@ -1,0 +1,19 @@
+#include "mesh_system.h"
+
+namespace rollwave {
+
+DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force)
+    : angular_velocity(scene.angular_velocity), force(force),
+      shapes(scene, space.dof_handler().get_fe().degree),
+      interpolant(scene.force ? std::optional<ForceInterpolant>(std::in_place, space, scene)
+                              : std::nullopt),
+      gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
+  if (interpolant)
+    columns.emplace(*interpolant, gauss);
+}
+
+bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {
+  return angular_velocity == scene.angular_velocity && force == of_scene;
+}
+
+} // namespace rollwave
