@@ -43,8 +43,7 @@ struct RadialShapes {
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
 class RadialShapesOfMesh {
 public:
-  /// By Gauss' rules that are exact but for the factor 1/r, which they resolve far better than the
-  /// elements do.
+  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
   RadialShapesOfMesh(const Scene& scene, unsigned int degree);
 
   const RadialShapes& on(double begin, double end);

@@ -113,7 +113,7 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
     if (panels[i].first_half == 0)
       add(i);
   const double allowed = tolerance * tolerance * friedrichs_squared * norm_squared;
-  const unsigned int most_panels = 2 * panels.size() + triangulation.n_global_active_cells() / 128;
+  const unsigned int most_panels = 3 * panels.size() + space.n_unknowns() / 200;
   while (!worst.empty() && worst.top().first * panels.size() > allowed &&
          panels.size() < most_panels) {
     const unsigned int i = worst.top().second;

@@ -2,10 +2,12 @@
 // force, and not far above it.
 #include "certificate.h"
 
+#include "contact_free.h"
 #include "edge_pressure.h"
 #include "manufactured_scene.h"
 #include "mesh_solution.h"
 #include "potential_shapes.h"
+#include "simulation.h"
 #include "test_scenes.h"
 #include "true_errors.h"
 #include "verification.h"
@@ -147,6 +149,22 @@ TEST(EdgePressures, CarryTheContactForce) {
 }
 
 // Where all of the height answers to what happens on the surface.
+// Without contact the flux G / r is the exact one, and D(tau) = min J = -pi f^2 int r u_1 dr.
+TEST(Certificate, IsAnEqualityWithoutContact) {
+  for (const char* degree : {"1", "2"})
+    for (const char* radius : {"0.99", "0.5", "0.0067", "1e-6"}) {
+      const Parameters parameters = parameters_of(
+          {std::string("Mesh/Degree=") + degree, "Mesh/Radial cells=4", "Mesh/Angular cells=7",
+           "Cylinder/Angular velocity=0.9", std::string("Cylinder/Inner radius=") + radius,
+           "Road/Distance=1.1", "Cylinder/Radial force=-3"});
+      const Result result = simulate(make_scene(parameters), parameters).result;
+      const double exact = -9 * PI * contact_free_unit_work(std::stod(radius), 1);
+      EXPECT_EQ(result.patch.active_nodes, 0u);
+      EXPECT_NEAR(result.certified->lower_bound, exact, 1e-12 * std::abs(exact)) << radius;
+      EXPECT_GE(result.certified->upper_bound, exact * (1 + 1e-12)) << radius;
+    }
+}
+
 TEST(Certificate, IsSharpInThinRings) {
   for (const double a : {0.9, 0.99, 0.999})
     for (const double omega : {0., 0.9, 1.}) {
