@@ -1,12 +1,12 @@
 #include "missed_moment.h"
 
 #include "contact_free.h"
+#include "interpolation.h"
 #include "radial_rule.h"
 #include "scene.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/polynomial.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
@@ -20,16 +20,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-/// The values at the points of a finer rule of the polynomials that are given at those of another.
-FullMatrix<double> interpolation(const Quadrature<1>& gauss, const Quadrature<1>& fine) {
-  const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
-  FullMatrix<double> matrix(fine.size(), gauss.size());
-  for (unsigned int q = 0; q < fine.size(); ++q)
-    for (unsigned int i = 0; i < gauss.size(); ++i)
-      matrix(q, i) = lagrange[i].value(fine.point(q)[0]);
-  return matrix;
-}
 
 bool have_equal_pieces(const ForceColumn& one, const ForceColumn& other) {
   return std::equal(one.begin(), one.end(), other.begin(), other.end(),

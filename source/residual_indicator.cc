@@ -1,5 +1,6 @@
 #include "residual_indicator.h"
 
+#include "interpolation.h"
 #include "parameters.h"
 #include "ring_mesh.h"
 #include "scene.h"
@@ -130,14 +131,9 @@ Rectangle rectangle_of(const DoFHandler<2>::active_cell_iterator& cell) {
 /// points. What is left varies too fast for the residual to tell how large its error is.
 class ForceMoment {
 public:
-  /// @param points where it is asked for, in each direction
-  ForceMoment(unsigned int degree, const std::vector<Point<1>>& points)
-      : gauss(degree), to_points(points.size(), degree), at_gauss(degree) {
-    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
-    for (unsigned int q = 0; q < points.size(); ++q)
-      for (unsigned int i = 0; i < degree; ++i)
-        to_points(q, i) = lagrange[i].value(points[q][0]);
-  }
+  /// @param rule at whose points it is asked for, in each direction
+  ForceMoment(unsigned int degree, const Quadrature<1>& rule)
+      : gauss(degree), to_points(interpolation(gauss, rule)), at_gauss(degree) {}
 
   void reinit(const Scene& scene, const Rectangle& box) {
     for (unsigned int j = 0; j < gauss.size(); ++j) {
@@ -235,7 +231,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   std::vector<double> jump(triangulation.n_raw_lines() * n);
   std::vector<double> squares(triangulation.n_active_cells());
   std::vector<Lengths> lengths(triangulation.n_active_cells());
-  ForceMoment moment(degree, points);
+  ForceMoment moment(degree, gauss);
   FullMatrix<double> residual(n);
   Vector<double> radial_mode(n), angular_mode(n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
