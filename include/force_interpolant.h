@@ -2,6 +2,7 @@
 #define ROLLWAVE_FORCE_INTERPOLANT_H
 
 #include "force_piece.h"
+#include "interpolation.h"
 #include "ring_space.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -28,11 +29,12 @@ struct Scene;
  *     h_r^2 / (pi^2 r) ||m_r||^2 + h_z^2 / (pi^2 r alpha) ||m_z||^2 + the lesser factor ||rest||^2,
  *
  * r and r alpha being the least on the panel. Friedrichs' inequality (Certificate), blind for
- * panels, takes m_z where alpha vanishes, and the constant, which tells how far the mean is known.
- * Norms and means are taken on half as many points again in each direction.
+ * panels, takes m_z where alpha vanishes. The constant m_0, by which the mean may be off, adds (int
+ * M^2 / r dr dz)^(1/2), M = int_r^b |m_0| drho. Norms and means are taken on half as many points
+ * again in each direction.
  *
  * Panels are halved until each has a small share of the mesh's cells, then the worst first until
- * f_0 is f but for round-off, as many as the mesh pays for.
+ * f_0 is f but for round-off, as many as the mesh pays for; in the direction in which f is rougher.
  */
 class ForceInterpolant {
 public:
@@ -42,6 +44,11 @@ public:
 
   /// The pieces of a line beyond the radius @p begin.
   ForceColumn column(double z, double begin = 0) const;
+
+  /// A bound, for any radius, of the root mean square over z in [begin, end], at the points of the
+  /// fine rule, of G less the polynomial that equals it at the points of the rule, from the
+  /// coefficients. Infinite where panels end in between.
+  double missed_along_z(double begin, double end, const HalvedRule& rules) const;
 
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }
@@ -55,25 +62,33 @@ private:
     unsigned int first_half = 0;             ///< among the panels, the second follows; 0: is whole
     unsigned int direction = 0;              ///< in which it was halved
     dealii::FullMatrix<double> coefficients; ///< of rho f_0, in r and z
-    double local_squared = 0, global_squared = 0; ///< of the error, by Poincare and by Friedrichs
-    double norm_squared = 0;                      ///< int r f^2 dr dz
-  };
-
-  /// Legendre's polynomials at one angle for the panels of an angular interval, which many panels
-  /// along r have in common.
-  struct AngularValues {
-    double begin = 0, end = 0;
-    ForcePiece::Coefficients legendre;
+    double norm_squared = 0;                 ///< int r f^2 dr dz
+    double mean = 0;                         ///< by how much that of rho f may be off
+    double local_squared = 0, global_squared = 0; ///< of the rest, by Poincare and by Friedrichs
+    double error_squared = 0;                     ///< all that, as if this panel were alone
   };
 
   /// Halves the panels that have more than their share of the cells.
-  void halve_where_fine(const dealii::Triangulation<2>& triangulation);
+  void halve_where_fine(const Scene& scene, const RingSpace& space);
 
-  void halve(unsigned int panel, unsigned int direction);
-  void collect(unsigned int panel, double z, double begin, AngularValues& angular,
-               ForceColumn& column) const;
+  /// The direction in which the last two coefficients of f_0 are larger, or where they are
+  /// round-off, in which the panel is longer.
+  static unsigned int rougher_direction(const Panel& panel);
 
-  void interpolate(const Scene& scene, Panel& panel) const;
+  void halve(const Scene& scene, unsigned int panel, unsigned int direction);
+
+  /// The numbers of the whole panels on the line z in [0, 2 pi), beyond a radius.
+  std::vector<unsigned int> panels_on(double z, double begin) const;
+
+  void collect(unsigned int panel, double z, double begin, std::vector<unsigned int>& line) const;
+
+  /// r f at a point given by shares of the panel's sides.
+  static double moment(const Scene& scene, const Panel& panel, const dealii::Point<2>& share);
+
+  static void interpolate(const Scene& scene, Panel& panel);
+
+  /// What f_0 leaves out of f, but for its mean, which f_0 gets.
+  void judge(const Scene& scene, Panel& panel) const;
 
   const bool exact;
   const double friedrichs_squared; ///< C^2 of ||w|| <= C |w|

@@ -16,8 +16,11 @@ struct ForcePiece {
   double outside;            ///< G(end, z)
 };
 
-/// int_r^end L_k drho for all k. On the piece G(r, z) = int_r^b rho f_0 drho is the product of
-/// these with the coefficients, and what is outside.
+/// L_k(t) for all k.
+ForcePiece::Coefficients legendre_values(double t);
+
+/// int_r^end L_k drho for all k, by int P_k = (P_(k+1) - P_(k-1)) / (2 k + 1). On the piece G(r, z)
+/// = int_r^b rho f_0 drho is the product of these with the coefficients, and what is outside.
 ForcePiece::Coefficients legendre_integrals(double begin, double end, double r);
 
 /// f_0 on a line z = const, from the hub outwards.

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_INTERPOLATION_H
 #define ROLLWAVE_INTERPOLATION_H
 
-#include <deal.II/base/quadrature.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 
 namespace rollwave {
@@ -10,6 +10,15 @@ namespace rollwave {
 /// points of another, as many rows as the latter has.
 dealii::FullMatrix<double> interpolation(const dealii::Quadrature<1>& from,
                                          const dealii::Quadrature<1>& to);
+
+/// A rule, and itself on both halves, which tells what the rule misses.
+struct HalvedRule {
+  explicit HalvedRule(const dealii::QGauss<1>& rule);
+
+  const dealii::QGauss<1> rule;
+  const dealii::QIterated<1> fine;
+  const dealii::FullMatrix<double> interpolation; ///< from the rule to the fine one
+};
 
 } // namespace rollwave
 

@@ -2,13 +2,15 @@
 
 #include "contact_free.h"
 #include "errors.h"
+#include "interval_map.h"
 #include "scene.h"
 
-#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -19,22 +21,20 @@ using namespace dealii;
 namespace {
 
 constexpr unsigned int n = ForcePiece::n_coefficients;
-constexpr double tolerance = 1e-13; ///< of f_0
+constexpr double round_off = 1e-13; ///< of f_0
 constexpr double smallest = 4e-15;  ///< panel, over its distance from the origin
-
-const std::vector<Polynomials::Polynomial<double>>& legendre() {
-  static const auto polynomials = Polynomials::Legendre::generate_complete_basis(n - 1);
-  return polynomials;
-}
 
 /// Gauss' points of a panel in one direction, and more on which f_0 is compared with f.
 struct PanelPoints {
   PanelPoints() : gauss(n), fine(3 * n / 2), to_coefficients(n, n), to_values(fine.size(), n) {
-    for (unsigned int k = 0; k < n; ++k) {
-      for (unsigned int q = 0; q < n; ++q)
-        to_coefficients(k, q) = gauss.weight(q) * legendre()[k].value(gauss.point(q)[0]);
-      for (unsigned int p = 0; p < fine.size(); ++p)
-        to_values(p, k) = legendre()[k].value(fine.point(p)[0]);
+    for (unsigned int q = 0; q < n; ++q) {
+      const auto values = legendre_values(gauss.point(q)[0]);
+      for (unsigned int k = 0; k < n; ++k)
+        to_coefficients(k, q) = gauss.weight(q) * values[k];
+    }
+    for (unsigned int p = 0; p < fine.size(); ++p) {
+      const auto values = legendre_values(fine.point(p)[0]);
+      std::copy(values.begin(), values.end(), &to_values(p, 0));
     }
   }
 
@@ -42,23 +42,9 @@ struct PanelPoints {
   FullMatrix<double> to_coefficients, to_values;
 };
 
-/// The direction in which a panel is longer.
-unsigned int longer_direction(const Point<2>& low, const Point<2>& high) {
-  return high[0] * (high[1] - low[1]) > high[0] - low[0] ? 1 : 0;
-}
-
-/// The direction in which the last two coefficients are larger.
-unsigned int rougher_direction(const FullMatrix<double>& coefficients) {
-  double tail[] = {0, 0};
-  for (unsigned int l = 0; l < n; ++l)
-    for (unsigned int k = 0; k < n; ++k) {
-      const double square = coefficients(l, k) * coefficients(l, k);
-      if (k + 2 >= n)
-        tail[0] += square;
-      if (l + 2 >= n)
-        tail[1] += square;
-    }
-  return tail[0] > tail[1] ? 0 : 1;
+const PanelPoints& points() {
+  static const PanelPoints all;
+  return all;
 }
 
 /// The mean of what is given at the points of a product of a rule, and the mean squares of its
@@ -94,40 +80,39 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
   Panel ring;
   ring.low = Point<2>(scene.inner_radius, 0);
   ring.high = Point<2>(scene.outer_radius, 2 * numbers::PI);
+  interpolate(scene, ring);
   panels = {ring};
-  if (exact) {
-    interpolate(scene, panels[0]);
+  if (exact)
     return;
-  }
 
-  const auto& triangulation = space.dof_handler().get_triangulation();
-  halve_where_fine(triangulation);
+  halve_where_fine(scene, space);
   double norm_squared = 0;
   std::priority_queue<std::pair<double, unsigned int>> worst;
   const auto add = [&](unsigned int i) {
-    interpolate(scene, panels[i]);
+    judge(scene, panels[i]);
     norm_squared += panels[i].norm_squared;
-    worst.push({panels[i].local_squared + panels[i].global_squared, i});
+    worst.push({panels[i].error_squared, i});
   };
   for (unsigned int i = 0; i < panels.size(); ++i)
     if (panels[i].first_half == 0)
       add(i);
-  const double allowed = tolerance * tolerance * friedrichs_squared * norm_squared;
-  const unsigned int most_panels = 3 * panels.size() + space.n_unknowns() / 200;
+  const double allowed = round_off * round_off * friedrichs_squared * norm_squared;
+  const unsigned int most_panels = panels.size() + 16 + space.n_unknowns() / 100;
   while (!worst.empty() && worst.top().first * panels.size() > allowed &&
          panels.size() < most_panels) {
     const unsigned int i = worst.top().second;
     worst.pop();
-    const unsigned int direction = rougher_direction(panels[i].coefficients);
+    const unsigned int direction = rougher_direction(panels[i]);
     if (panels[i].high[direction] - panels[i].low[direction] < smallest * panels[i].high[direction])
       continue; // a jump between neighbouring numbers
-    halve(i, direction);
+    halve(scene, i, direction);
     for (const unsigned int half : {0, 1})
       add(panels[i].first_half + half);
   }
 }
 
-void ForceInterpolant::halve_where_fine(const Triangulation<2>& triangulation) {
+void ForceInterpolant::halve_where_fine(const Scene& scene, const RingSpace& space) {
+  const auto& triangulation = space.dof_handler().get_triangulation();
   std::vector<Point<2>> centers;
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned()) {
@@ -135,14 +120,17 @@ void ForceInterpolant::halve_where_fine(const Triangulation<2>& triangulation) {
       centers.emplace_back(center[0], std::fmod(center[1], 2 * numbers::PI));
     }
   const unsigned int n_cells = triangulation.n_global_active_cells();
-  const unsigned int most_cells = std::max(8u, n_cells / 32);
+  const double most_cells = n_cells * std::max(1. / 32, 128. / space.n_unknowns());
   std::vector<std::vector<Point<2>>> own_cells = {std::move(centers)}; // of each panel
   std::vector<unsigned int> all_cells = {n_cells};
   for (unsigned int i = 0; i < panels.size(); ++i) {
     if (all_cells[i] <= most_cells)
       continue;
-    const unsigned int direction = longer_direction(panels[i].low, panels[i].high);
-    halve(i, direction);
+    unsigned int direction = rougher_direction(panels[i]);
+    const Tensor<1, 2> size = panels[i].high - panels[i].low, all = panels[0].high - panels[0].low;
+    if (16 * size[direction] / all[direction] < size[1 - direction] / all[1 - direction])
+      direction = 1 - direction; // does not reach single cells along a jump
+    halve(scene, i, direction);
     const double middle = panels.back().low[direction];
     std::vector<Point<2>> inner, outer;
     for (const Point<2>& center : own_cells[i])
@@ -155,113 +143,216 @@ void ForceInterpolant::halve_where_fine(const Triangulation<2>& triangulation) {
   }
 }
 
-void ForceInterpolant::halve(unsigned int number, unsigned int direction) {
+unsigned int ForceInterpolant::rougher_direction(const Panel& panel) {
+  double tail[] = {0, 0}, all = 0;
+  for (unsigned int l = 0; l < n; ++l)
+    for (unsigned int k = 0; k < n; ++k) {
+      const double square = panel.coefficients(l, k) * panel.coefficients(l, k);
+      all += square;
+      if (k + 2 >= n)
+        tail[0] += square;
+      if (l + 2 >= n)
+        tail[1] += square;
+    }
+  if (std::max(tail[0], tail[1]) <= round_off * round_off * all) {
+    const Tensor<1, 2> size = panel.high - panel.low;
+    return panel.high[0] * size[1] > size[0] ? 1 : 0;
+  }
+  return tail[0] > tail[1] ? 0 : 1;
+}
+
+void ForceInterpolant::halve(const Scene& scene, unsigned int number, unsigned int direction) {
   Panel inner = panels[number], outer = inner;
   inner.high[direction] = outer.low[direction] = (inner.low[direction] + inner.high[direction]) / 2;
   panels[number].first_half = panels.size();
   panels[number].direction = direction;
-  panels.push_back(std::move(inner));
-  panels.push_back(std::move(outer));
+  for (Panel* half : {&inner, &outer}) {
+    interpolate(scene, *half);
+    panels.push_back(std::move(*half));
+  }
 }
 
-void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) const {
-  static const PanelPoints points;
-  const Tensor<1, 2> size = panel.high - panel.low;
-  const auto moment = [&](double r, double t) {
-    const double z = panel.low[1] + t * size[1], f = scene.force(r, z);
-    if (!std::isfinite(f))
-      throw BadInput(force_not_finite_at(scene, r, z));
-    return r * f;
-  };
-  const auto radius = [&](double t) { return panel.low[0] + t * size[0]; };
+double ForceInterpolant::moment(const Scene& scene, const Panel& panel, const Point<2>& share) {
+  const double r = panel.low[0] + share[0] * (panel.high[0] - panel.low[0]);
+  const double z = panel.low[1] + share[1] * (panel.high[1] - panel.low[1]);
+  const double f = scene.force(r, z);
+  if (!std::isfinite(f))
+    throw BadInput(force_not_finite_at(scene, r, z));
+  return r * f;
+}
 
+void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
   FullMatrix<double> nodal(n), half(n);
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < n; ++i)
-      nodal(j, i) = moment(radius(points.gauss.point(i)[0]), points.gauss.point(j)[0]);
-  points.to_coefficients.mmult(half, nodal);
+      nodal(j, i) = moment(scene, panel, {points().gauss.point(i)[0], points().gauss.point(j)[0]});
+  points().to_coefficients.mmult(half, nodal);
   panel.coefficients.reinit(n, n);
-  half.mTmult(panel.coefficients, points.to_coefficients);
+  half.mTmult(panel.coefficients, points().to_coefficients);
+}
 
-  if (scene.uniform_force)
-    return;
-  const unsigned int n_fine = points.fine.size();
-  FullMatrix<double> rows(n_fine, n), missed(n_fine, n_fine);
-  points.to_values.mmult(rows, panel.coefficients);
-  rows.mTmult(missed, points.to_values);
+void ForceInterpolant::judge(const Scene& scene, Panel& panel) const {
+  const QGauss<1>& rule = points().fine;
+  FullMatrix<double> rows(rule.size(), n), missed(rule.size());
+  points().to_values.mmult(rows, panel.coefficients);
+  rows.mTmult(missed, points().to_values);
+  const Tensor<1, 2> size = panel.high - panel.low;
   panel.norm_squared = 0;
-  for (unsigned int q = 0; q < n_fine; ++q)
-    for (unsigned int p = 0; p < n_fine; ++p) {
-      const double r = radius(points.fine.point(p)[0]);
-      const double exact_value = moment(r, points.fine.point(q)[0]);
+  for (unsigned int q = 0; q < rule.size(); ++q)
+    for (unsigned int p = 0; p < rule.size(); ++p) {
+      const double exact_value = moment(scene, panel, {rule.point(p)[0], rule.point(q)[0]});
       missed(q, p) = exact_value - missed(q, p);
-      panel.norm_squared += size[0] * size[1] * points.fine.weight(p) * points.fine.weight(q) *
-                            exact_value * exact_value / r;
+      panel.norm_squared += size[0] * size[1] * rule.weight(p) * rule.weight(q) * exact_value *
+                            exact_value / (panel.low[0] + rule.point(p)[0] * size[0]);
     }
-  const MeanSquares squares(missed, points.fine);
+  const MeanSquares squares(missed, rule);
   panel.coefficients(0, 0) += squares.mean;
 
+  panel.mean = std::abs(squares.mean);
+
   // Factors of the squares; the speed may be a rounding beyond the critical one.
-  const double by_norm = friedrichs_squared / panel.low[0];
   const double by_r = std::pow(size[0] / numbers::PI, 2) / panel.low[0];
+  const double by_norm = friedrichs_squared / panel.low[0];
   const double angular_stiffness = panel.high[0] * std::max(0., scene.alpha(panel.high[0]));
   double by_z = std::pow(size[1] / numbers::PI, 2);
   const bool is_local = by_z < by_norm * angular_stiffness;
   by_z = is_local ? by_z / angular_stiffness : by_norm;
+  const double of_z = size[0] * size[1] * by_z * squares.of_z;
   const double local =
       by_r * squares.of_r + (is_local ? std::min(by_r, by_z) : by_r) * squares.rest;
-  const double global = by_norm * squares.mean * squares.mean;
-  panel.local_squared = size[0] * size[1] * (local + (is_local ? by_z * squares.of_z : 0));
-  panel.global_squared = size[0] * size[1] * (global + (is_local ? 0 : by_z * squares.of_z));
+  panel.local_squared = size[0] * size[1] * local + (is_local ? of_z : 0);
+  panel.global_squared = is_local ? 0 : of_z;
+  const double by_integral = size[0] * log_of_ratio(panel.high[0], panels[0].low[0]);
+  panel.error_squared = panel.local_squared + panel.global_squared +
+                        size[0] * size[1] * by_integral * panel.mean * panel.mean;
 }
 
 ForceColumn ForceInterpolant::column(double z, double begin) const {
+  z = std::fmod(z, 2 * numbers::PI);
+  const std::vector<unsigned int> line = panels_on(z, begin);
   ForceColumn pieces;
-  AngularValues angular;
-  collect(0, std::fmod(z, 2 * numbers::PI), begin, angular, pieces);
+  pieces.reserve(line.size());
+  double angular_begin = 0, angular_end = 0; // which many panels along r have in common
+  ForcePiece::Coefficients angular = {};
+  for (const unsigned int i : line) {
+    const Panel& panel = panels[i];
+    if (angular_begin != panel.low[1] || angular_end != panel.high[1]) {
+      angular_begin = panel.low[1];
+      angular_end = panel.high[1];
+      angular = legendre_values((z - angular_begin) / (angular_end - angular_begin));
+    }
+    pieces.push_back({panel.low[0], panel.high[0], {}, 0});
+    const double* of_panel = &panel.coefficients(0, 0); // by rows
+    for (const double value : angular)
+      for (double& coefficient : pieces.back().coefficients)
+        coefficient += value * *of_panel++;
+  }
   for (unsigned int i = pieces.size(); i-- > 1;)
     pieces[i - 1].outside =
         pieces[i].outside + (pieces[i].end - pieces[i].begin) * pieces[i].coefficients[0];
   return pieces;
 }
 
-void ForceInterpolant::collect(unsigned int number, double z, double begin, AngularValues& angular,
-                               ForceColumn& column) const {
+double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRule& rules) const {
+  const auto angles = [&](const Quadrature<1>& rule) {
+    std::vector<double> z;
+    for (const auto& point : rule.get_points())
+      z.push_back(std::fmod(begin + (end - begin) * point[0], 2 * numbers::PI));
+    return z;
+  };
+  const std::vector<double> of_rule = angles(rules.rule), of_fine = angles(rules.fine);
+  const std::vector<unsigned int> line = panels_on(of_fine.front(), 0);
+  if (line != panels_on(of_fine.back(), 0))
+    return std::numeric_limits<double>::infinity();
+
+  const auto missed_norms_on = [&](double low, double high) {
+    const auto values = [&](const std::vector<double>& z) {
+      std::vector<ForcePiece::Coefficients> all;
+      for (const double angle : z)
+        all.push_back(legendre_values((angle - low) / (high - low)));
+      return all;
+    };
+    const auto on_rule = values(of_rule), on_fine = values(of_fine);
+    ForcePiece::Coefficients missed_norms;
+    for (unsigned int l = 0; l < n; ++l) {
+      double square = 0;
+      for (unsigned int p = 0; p < of_fine.size(); ++p) {
+        double missed = on_fine[p][l];
+        for (unsigned int i = 0; i < of_rule.size(); ++i)
+          missed -= rules.interpolation(p, i) * on_rule[i][l];
+        square += rules.fine.weight(p) * missed * missed;
+      }
+      missed_norms[l] = std::sqrt(square);
+    }
+    return missed_norms;
+  };
+  IntervalMap<ForcePiece::Coefficients> missed_norms; // of which many panels have one in common
+  double outside = 0, largest = 0;
+  for (unsigned int s = line.size(); s-- > 0;) {
+    const Panel& panel = panels[line[s]];
+    const auto& norms = missed_norms.at(
+        panel.low[1], panel.high[1], [&] { return missed_norms_on(panel.low[1], panel.high[1]); });
+    ForcePiece::Coefficients missed = {};
+    const double* of_panel = &panel.coefficients(0, 0); // by rows
+    for (const double norm : norms)
+      for (double& coefficient : missed)
+        coefficient += norm * std::abs(*of_panel++);
+    // Legendre polynomials other than the first have no mean: |int_t^1 L_k| <= (t (1 - t))^(1/2).
+    const double within = std::accumulate(missed.begin(), missed.end(), missed[0]) / 2;
+    const double height = panel.high[0] - panel.low[0];
+    largest = std::max(largest, outside + height * within);
+    outside += height * missed[0];
+  }
+  return largest;
+}
+
+std::vector<unsigned int> ForceInterpolant::panels_on(double z, double begin) const {
+  std::vector<unsigned int> line;
+  line.reserve(32);
+  collect(0, z, begin, line);
+  return line;
+}
+
+void ForceInterpolant::collect(unsigned int number, double z, double begin,
+                               std::vector<unsigned int>& line) const {
   const Panel& panel = panels[number];
   if (panel.high[0] <= begin)
     return;
-  if (panel.first_half > 0) {
-    const bool all = panel.direction == 0;
-    const bool is_outer = z >= panels[panel.first_half].high[1];
-    if (all || !is_outer)
-      collect(panel.first_half, z, begin, angular, column);
-    if (all || is_outer)
-      collect(panel.first_half + 1, z, begin, angular, column);
+  if (panel.first_half == 0) {
+    line.push_back(number);
     return;
   }
-  if (angular.begin != panel.low[1] || angular.end != panel.high[1]) {
-    angular.begin = panel.low[1];
-    angular.end = panel.high[1];
-    for (unsigned int l = 0; l < n; ++l)
-      angular.legendre[l] =
-          legendre()[l].value((z - angular.begin) / (angular.end - angular.begin));
-  }
-  ForcePiece::Coefficients coefficients = {};
-  const double* of_panel = &panel.coefficients(0, 0); // by rows
-  for (const double value : angular.legendre)
-    for (double& coefficient : coefficients)
-      coefficient += value * *of_panel++;
-  column.push_back({panel.low[0], panel.high[0], coefficients, 0});
+  const bool all = panel.direction == 0, is_inner = z < panels[panel.first_half].high[1];
+  if (all || is_inner)
+    collect(panel.first_half, z, begin, line);
+  if (all || !is_inner)
+    collect(panel.first_half + 1, z, begin, line);
 }
 
 double ForceInterpolant::error() const {
   double local = 0, global = 0;
+  std::vector<double> angles = {2 * numbers::PI};
   for (const Panel& panel : panels)
     if (panel.first_half == 0) {
       local += panel.local_squared;
       global += panel.global_squared;
+      angles.push_back(panel.low[1]);
     }
-  return std::sqrt(local) + std::sqrt(global);
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  double of_means = 0;
+  for (unsigned int j = 0; j + 1 < angles.size(); ++j) {
+    const std::vector<unsigned int> line = panels_on((angles[j] + angles[j + 1]) / 2, 0);
+    double outer = 0;
+    for (unsigned int k = line.size(); k-- > 0;) {
+      const Panel& panel = panels[line[k]];
+      const double height = panel.high[0] - panel.low[0], inner = outer + height * panel.mean;
+      of_means += (angles[j + 1] - angles[j]) * height / panel.low[0] *
+                  (outer * outer + outer * inner + inner * inner) / 3;
+      outer = inner;
+    }
+  }
+  return std::sqrt(local) + std::sqrt(global) + std::sqrt(of_means);
 }
 
 } // namespace rollwave

@@ -1,26 +1,53 @@
 #include "force_piece.h"
 
-#include <deal.II/base/polynomial.h>
+#include <boost/math/special_functions/legendre.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace rollwave {
 
-using namespace dealii;
+namespace {
+
+constexpr unsigned int n = ForcePiece::n_coefficients;
+
+/// (2 k + 1)^(1/2)
+const std::array<double, n + 1>& norms() {
+  static const auto all = [] {
+    std::array<double, n + 1> roots;
+    for (unsigned int k = 0; k <= n; ++k)
+      roots[k] = std::sqrt(2 * k + 1.);
+    return roots;
+  }();
+  return all;
+}
+
+/// Legendre's polynomials, 1 at the end of [0, 1], at @p t.
+std::array<double, n + 1> classical_legendre(double t) {
+  const double x = 2 * t - 1;
+  std::array<double, n + 1> values = {1, x};
+  for (unsigned int k = 1; k < n; ++k)
+    values[k + 1] = boost::math::legendre_next(k, x, values[k], values[k - 1]);
+  return values;
+}
+
+} // namespace
+
+ForcePiece::Coefficients legendre_values(double t) {
+  const auto classical = classical_legendre(t);
+  ForcePiece::Coefficients values;
+  for (unsigned int k = 0; k < n; ++k)
+    values[k] = norms()[k] * classical[k];
+  return values;
+}
 
 ForcePiece::Coefficients legendre_integrals(double begin, double end, double r) {
-  constexpr unsigned int n = ForcePiece::n_coefficients;
-  static const auto legendre = Polynomials::Legendre::generate_complete_basis(n);
-  const double length = end - begin, t = (r - begin) / length;
-  std::array<double, n + 1> scaled; // L_k / (2 k + 1)^(1/2)
-  for (unsigned int k = 0; k <= n; ++k)
-    scaled[k] = legendre[k].value(t) / std::sqrt(2 * k + 1.);
-  // int_t^1 L_k = (L_(k-1)/(2 k - 1)^(1/2) - L_(k+1)/(2 k + 3)^(1/2)) / (2 (2 k + 1)^(1/2))
+  const double length = end - begin;
+  const auto classical = classical_legendre((r - begin) / length);
   ForcePiece::Coefficients integrals;
   integrals[0] = end - r;
   for (unsigned int k = 1; k < n; ++k)
-    integrals[k] = length * (scaled[k - 1] - scaled[k + 1]) / (2 * std::sqrt(2 * k + 1.));
+    integrals[k] = length * (classical[k - 1] - classical[k + 1]) / (2 * norms()[k]);
   return integrals;
 }
 
