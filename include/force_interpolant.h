@@ -62,6 +62,7 @@ private:
     unsigned int first_half = 0;             ///< among the panels, the second follows; 0: is whole
     unsigned int direction = 0;              ///< in which it was halved
     dealii::FullMatrix<double> coefficients; ///< of rho f_0, in r and z
+    unsigned int n_rows = 0;                 ///< of these, in z, that are more than round-off
     double norm_squared = 0;                 ///< int r f^2 dr dz
     double mean = 0;                         ///< by how much that of rho f may be off
     double local_squared = 0, global_squared = 0; ///< of the rest, by Poincare and by Friedrichs

@@ -78,7 +78,7 @@ void FeasibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end) 
       ends.push_back(root(excess_at, left, right, at_left, at_right));
   };
   const QGaussLobatto<1> nodes(shapes.size());
-  const QGaussLobatto<1> samples(8);
+  static const QGaussLobatto<1> samples(8);
   for (unsigned int k = 0; k + 1 < nodes.size(); ++k) {
     const double low = std::max(zone_begin, nodes.point(k)[0]);
     const double high = std::min(zone_end, nodes.point(k + 1)[0]);

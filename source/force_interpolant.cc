@@ -189,6 +189,15 @@ void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
   points().to_coefficients.mmult(half, nodal);
   panel.coefficients.reinit(n, n);
   half.mTmult(panel.coefficients, points().to_coefficients);
+
+  double largest[n] = {}; // of each row
+  for (unsigned int l = 0; l < n; ++l)
+    for (unsigned int k = 0; k < n; ++k)
+      largest[l] = std::max(largest[l], std::abs(panel.coefficients(l, k)));
+  const double negligible = 1e-15 * *std::max_element(largest, largest + n);
+  panel.n_rows = n;
+  while (panel.n_rows > 1 && largest[panel.n_rows - 1] <= negligible)
+    --panel.n_rows;
 }
 
 void ForceInterpolant::judge(const Scene& scene, Panel& panel) const {
@@ -242,10 +251,9 @@ ForceColumn ForceInterpolant::column(double z, double begin) const {
       angular = legendre_values((z - angular_begin) / (angular_end - angular_begin));
     }
     pieces.push_back({panel.low[0], panel.high[0], {}, 0});
-    const double* of_panel = &panel.coefficients(0, 0); // by rows
-    for (const double value : angular)
-      for (double& coefficient : pieces.back().coefficients)
-        coefficient += value * *of_panel++;
+    for (unsigned int l = 0; l < panel.n_rows; ++l)
+      for (unsigned int k = 0; k < n; ++k)
+        pieces.back().coefficients[k] += angular[l] * panel.coefficients(l, k);
   }
   for (unsigned int i = pieces.size(); i-- > 1;)
     pieces[i - 1].outside =
@@ -262,7 +270,7 @@ double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRu
   };
   const std::vector<double> of_rule = angles(rules.rule), of_fine = angles(rules.fine);
   const std::vector<unsigned int> line = panels_on(of_fine.front(), 0);
-  if (line != panels_on(of_fine.back(), 0))
+  if (of_fine.front() > of_fine.back() || line != panels_on(of_fine.back(), 0))
     return std::numeric_limits<double>::infinity();
 
   const auto missed_norms_on = [&](double low, double high) {
@@ -290,13 +298,14 @@ double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRu
   double outside = 0, largest = 0;
   for (unsigned int s = line.size(); s-- > 0;) {
     const Panel& panel = panels[line[s]];
+    if (panel.n_rows <= rules.rule.size()) // the rule sees them all
+      continue;
     const auto& norms = missed_norms.at(
         panel.low[1], panel.high[1], [&] { return missed_norms_on(panel.low[1], panel.high[1]); });
     ForcePiece::Coefficients missed = {};
-    const double* of_panel = &panel.coefficients(0, 0); // by rows
-    for (const double norm : norms)
-      for (double& coefficient : missed)
-        coefficient += norm * std::abs(*of_panel++);
+    for (unsigned int l = rules.rule.size(); l < panel.n_rows; ++l)
+      for (unsigned int k = 0; k < n; ++k)
+        missed[k] += norms[l] * std::abs(panel.coefficients(l, k));
     // Legendre polynomials other than the first have no mean: |int_t^1 L_k| <= (t (1 - t))^(1/2).
     const double within = std::accumulate(missed.begin(), missed.end(), missed[0]) / 2;
     const double height = panel.high[0] - panel.low[0];

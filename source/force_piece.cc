@@ -1,7 +1,5 @@
 #include "force_piece.h"
 
-#include <boost/math/special_functions/legendre.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,23 +9,26 @@ namespace {
 
 constexpr unsigned int n = ForcePiece::n_coefficients;
 
-/// (2 k + 1)^(1/2)
-const std::array<double, n + 1>& norms() {
-  static const auto all = [] {
-    std::array<double, n + 1> roots;
-    for (unsigned int k = 0; k <= n; ++k)
-      roots[k] = std::sqrt(2 * k + 1.);
-    return roots;
-  }();
-  return all;
-}
+/// Factors of Legendre's polynomials P_k: P_(k+1) = steps[k] x P_k - (steps[k] - 1) P_(k-1), and
+/// norms[k]^2 int_0^1 P_k(2 t - 1)^2 dt = 1.
+struct Factors {
+  Factors() {
+    for (unsigned int k = 0; k < n; ++k) {
+      steps[k] = (2 * k + 1.) / (k + 1);
+      norms[k] = std::sqrt(2 * k + 1.);
+    }
+  }
 
-/// Legendre's polynomials, 1 at the end of [0, 1], at @p t.
+  std::array<double, n> steps, norms;
+};
+const Factors factors;
+
+/// P_k(2 t - 1)
 std::array<double, n + 1> classical_legendre(double t) {
   const double x = 2 * t - 1;
   std::array<double, n + 1> values = {1, x};
   for (unsigned int k = 1; k < n; ++k)
-    values[k + 1] = boost::math::legendre_next(k, x, values[k], values[k - 1]);
+    values[k + 1] = factors.steps[k] * x * values[k] - (factors.steps[k] - 1) * values[k - 1];
   return values;
 }
 
@@ -37,7 +38,7 @@ ForcePiece::Coefficients legendre_values(double t) {
   const auto classical = classical_legendre(t);
   ForcePiece::Coefficients values;
   for (unsigned int k = 0; k < n; ++k)
-    values[k] = norms()[k] * classical[k];
+    values[k] = factors.norms[k] * classical[k];
   return values;
 }
 
@@ -47,7 +48,7 @@ ForcePiece::Coefficients legendre_integrals(double begin, double end, double r) 
   ForcePiece::Coefficients integrals;
   integrals[0] = end - r;
   for (unsigned int k = 1; k < n; ++k)
-    integrals[k] = length * (classical[k - 1] - classical[k + 1]) / (2 * norms()[k]);
+    integrals[k] = length * (classical[k - 1] - classical[k + 1]) / (2 * factors.norms[k]);
   return integrals;
 }
 
