@@ -119,9 +119,36 @@ public:
   /// On one line, with the correction c of v on the surface.
   LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
                         const std::vector<double>* moments) const {
+    return n == 2 ? on_line_of<2>(angular, correction, moments)
+                  : on_line_of<3>(angular, correction, moments);
+  }
+
+  /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
+  /// share of Legendre's polynomial of degree + 1, which vanishes there.
+  double unseen_square() const {
+    const double length = high[1] - low[1];
+    const auto& stiffness = radial->products.stiffness;
+    double square = 0;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < n; ++k)
+        square += stiffness(i, k) * g[i] * g[k];
+    return length * length * length * unseen_share * unseen_share * square;
+  }
+
+  /// g on r = b.
+  double surface_bubble() const { return g.back(); }
+  double angular_length() const { return high[1] - low[1]; }
+  AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
+
+private:
+  /// With n shape functions in each direction, a number for the compiler: half of the time.
+  template <unsigned int n>
+  LineIntegrals on_line_of(const AngularShapes& angular,
+                           const FeasibleTrace::Correction& correction,
+                           const std::vector<double>* moments) const {
     const double length = high[1] - low[1], per_length = 1 / length;
     // Coefficients along the line of u, psi and their angular derivatives
-    std::array<double, highest_degree + 1> line_u, line_u_z, line_psi, line_psi_z;
+    std::array<double, n> line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -163,24 +190,6 @@ public:
     return sums;
   }
 
-  /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
-  /// share of Legendre's polynomial of degree + 1, which vanishes there.
-  double unseen_square() const {
-    const double length = high[1] - low[1];
-    const auto& stiffness = radial->products.stiffness;
-    double square = 0;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int k = 0; k < n; ++k)
-        square += stiffness(i, k) * g[i] * g[k];
-    return length * length * length * unseen_share * unseen_share * square;
-  }
-
-  /// g on r = b.
-  double surface_bubble() const { return g.back(); }
-  double angular_length() const { return high[1] - low[1]; }
-  AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
-
-private:
   const std::vector<double>& moments_of(const ForceColumn& column) {
     at_radii->integrals(column, moments);
     return moments;
