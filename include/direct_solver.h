@@ -49,7 +49,7 @@ private:
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   std::unique_ptr<SparseCholesky> cholesky;
   std::unique_ptr<SchurComplement> schur;
-  std::vector<double> load;            ///< f; empty for f = 0
+  std::optional<FieldVector> load;     ///< f; nullopt for f = 0
   bool is_reduced = false;             ///< whether what follows belongs to it and to the factor
   std::vector<double> reduced_load;    ///< L^-1 f; empty for f = 0
   dealii::Vector<double> contact_load; ///< g, by place

@@ -36,22 +36,27 @@ public:
   /// @p kind is that of make_symmetric_solver().
   DualPotential(const RingSpace& space, SolverKind kind);
 
+  /// int G psi_z / r dr dz, the same for all pressures.
+  /// @param columns with lines at Gauss' degree + 2 points
+  FieldVector force_load(const Scene& scene, RadialShapesOfMesh& shapes,
+                         ForceColumns& columns) const;
+
   /// The nodal values of psi, both sides of the seam having their own.
   /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
-  /// @param columns with lines at Gauss' degree + 2 points; nullptr when G is a function of r,
-  /// which does no work: int psi_z dz = 0 for every periodic psi
+  /// @param force_load nullptr when G is a function of r, which does no work: int psi_z dz = 0 for
+  /// every periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
-                    const std::vector<EdgePressure>& pressures, ForceColumns* columns, Work& work);
+                    const std::vector<EdgePressure>& pressures, const FieldVector* force_load,
+                    Work& work);
 
 private:
   void assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
                        const dealii::AffineConstraints<double>& constraints, Work& work);
 
-  /// The right-hand side of the potential's equation, for its values prescribed in @p lift.
-  FieldVector assemble_load(RadialShapesOfMesh& shapes,
-                            const dealii::AffineConstraints<double>& constraints,
-                            const FieldVector& lift, ForceColumns* columns) const;
+  /// What the values prescribed in @p lift contribute to the right-hand side.
+  FieldVector load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
+                      const dealii::AffineConstraints<double>& constraints) const;
 
   const RingSpace& space;
   const dealii::FE_Q<2>& element;

@@ -53,7 +53,10 @@ public:
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }
 
-  /// A bound of (f - f_0, w) / |w| for all w, |w|^2 = a(w, w).
+  /// C ||f||, a bound of (f, w) / |w| for all w, |w|^2 = a(w, w). Not of a force that is exact.
+  double norm() const;
+
+  /// A bound of (f - f_0, w) / |w|.
   double error() const;
 
 private:

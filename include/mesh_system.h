@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace rollwave {
 
@@ -30,7 +31,12 @@ struct DualParts {
   std::optional<ForceInterpolant> interpolant; ///< nullopt without force
   const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
   std::optional<ForceColumns> columns;         ///< with lines at its points
-  std::optional<BubbleColumns> bubbles;        ///< made by the first certificate
+
+  // Made by the first certificate; the last three for an uneven force.
+  std::optional<BubbleColumns> bubbles;
+  std::optional<FieldVector> potential_load;      ///< DualPotential::force_load()
+  std::optional<std::vector<double>> bubble_load; ///< AngularBubbles::force_load()
+  std::optional<double> missed_moment;
 };
 
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another

@@ -31,7 +31,7 @@ struct RadialShapes {
   std::vector<double> weight;        ///< of the rule for dr
   std::vector<double> weight_over_r; ///< of the rule for dr / r
   std::vector<double> alpha;
-  std::vector<std::vector<RadialShape>> shapes; ///< all numbers at each point
+  std::vector<RadialShape> shapes; ///< all numbers at the first point, then at the next
 
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;

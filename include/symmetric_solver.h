@@ -27,8 +27,10 @@ public:
   virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                           const EachCellMatrix& each, Work& work) = 0;
 
-  /// The solution for @p rhs, which obeys homogeneous constraints, zero where a constraint holds.
-  virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
+  /// The solution for @p rhs and, unless it is nullptr, a @p lasting one added, which is prepared
+  /// once for calls that have it in common. Both obey homogeneous constraints; the solution is zero
+  /// where a constraint holds.
+  virtual FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) = 0;
 };
 
 /// @p kind is direct or iterative.

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace rollwave {
@@ -87,6 +88,9 @@ public:
   void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
     low = cell->vertex(0);
     high = cell->vertex(3);
+    length = high[1] - low[1];
+    per_length = 1 / length;
+    per_height = 1 / (high[0] - low[0]);
     radial = &shapes.on(low[0], high[0]);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < dofs.size(); ++i) {
@@ -126,7 +130,6 @@ public:
   /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
   /// share of Legendre's polynomial of degree + 1, which vanishes there.
   double unseen_square() const {
-    const double length = high[1] - low[1];
     const auto& stiffness = radial->products.stiffness;
     double square = 0;
     for (unsigned int i = 0; i < n; ++i)
@@ -137,7 +140,8 @@ public:
 
   /// g on r = b.
   double surface_bubble() const { return g.back(); }
-  double angular_length() const { return high[1] - low[1]; }
+  double angular_length() const { return length; }
+  bool ends_at(double radius) const { return high[0] == radius; }
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
@@ -146,7 +150,6 @@ private:
   LineIntegrals on_line_of(const AngularShapes& angular,
                            const FeasibleTrace::Correction& correction,
                            const std::vector<double>* moments) const {
-    const double length = high[1] - low[1], per_length = 1 / length;
     // Coefficients along the line of u, psi and their angular derivatives
     std::array<double, n> line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
@@ -161,14 +164,13 @@ private:
       line_psi[i] += length * angular.bubble * g[i];
       line_psi_z[i] = per_length * line_psi_z[i] + angular.mode * g[i];
     }
-    const double per_height = 1 / (high[0] - low[0]);
-    LineIntegrals sums;
+    double bound_squared = 0, norm_squared = 0, work_of_force = 0;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
       const double xi = (r - low[0]) * per_height;
       double v_r = correction.value * per_height, v_z = correction.slope * xi;
       double psi_s = 0, psi_z = 0;
-      const RadialShape* const shapes_at = radial->shapes[q].data();
+      const RadialShape* const shapes_at = &radial->shapes[n * q];
       for (unsigned int i = 0; i < n; ++i) {
         const RadialShape& shape = shapes_at[i];
         v_r += shape.derivative * line_u[i];
@@ -176,18 +178,16 @@ private:
         psi_s += shape.potential_s * line_psi[i];
         psi_z += shape.potential * line_psi_z[i];
       }
-      double radial_flux = -psi_z; // r tau_r
-      if (moments) {
-        radial_flux += (*moments)[q];
-        sums.work_of_force += weight * (*moments)[q] * v_r;
-      }
+      const double moment = moments ? (*moments)[q] : 0;
+      const double radial_flux = moment - psi_z; // r tau_r
       // tau_z = -alpha psi_s
       const double z_part = psi_s + v_z, r_part = radial_flux - r * v_r;
-      sums.bound_squared +=
+      bound_squared +=
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
-      sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
+      norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
+      work_of_force += weight * moment * v_r;
     }
-    return sums;
+    return {bound_squared, norm_squared, work_of_force};
   }
 
   const std::vector<double>& moments_of(const ForceColumn& column) {
@@ -210,6 +210,7 @@ private:
   std::vector<double> u, psi;                         ///< values at the ordered ones
   std::vector<double> g;                              ///< of the bubbles
   Point<2> low, high;
+  double length = 0, per_length = 0, per_height = 0; ///< in z and in r
   const RadialShapes* radial = nullptr;
   const std::vector<ForceColumn>* lines = nullptr;
   ForceAtRadii* at_radii = nullptr;
@@ -231,23 +232,27 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const QGauss<1>& gauss = dual.gauss;
   const QGauss<1> along_road(degree + 6);
   ForceColumns* const columns = dual.columns ? &*dual.columns : nullptr;
-  ForceColumns* const uneven_columns = dual.has_uneven_force() ? columns : nullptr;
+  const bool is_uneven = dual.has_uneven_force();
 
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = edge_pressures(space, scene, contact);
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
-  const FieldVector potential =
-      system.potential->solve(scene, dual.shapes, pressures, uneven_columns, work);
+  if (is_uneven && !dual.potential_load)
+    dual.potential_load = system.potential->force_load(scene, dual.shapes, *columns);
+  const FieldVector potential = system.potential->solve(
+      scene, dual.shapes, pressures, is_uneven ? &*dual.potential_load : nullptr, work);
   if (!system.is_kept)
     system.potential.reset();
   if (!dual.bubbles)
     dual.bubbles.emplace(space, dual.shapes);
+  if (is_uneven && !dual.bubble_load)
+    dual.bubble_load = AngularBubbles::force_load(space, dual.shapes, *columns, *dual.bubbles);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
-  const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures, uneven_columns,
-                               *dual.bubbles);
+  const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,
+                               is_uneven ? &*dual.bubble_load : nullptr, *dual.bubbles);
   Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns);
   std::vector<AngularShapes> lines;
   for (const auto& point : gauss.get_points())
@@ -261,12 +266,13 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     const double length = integrator.angular_length();
     LineIntegrals sums;
     double contact_work = 0;
-    const auto face = space.surface_face(cell);
+    const auto face =
+        integrator.ends_at(scene.outer_radius) ? space.surface_face(cell) : std::nullopt;
     if (!face) {
       for (unsigned int p = 0; p < gauss.size(); ++p)
         sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.moments_on(p)),
                  gauss.weight(p) * length);
-      if (!uneven_columns)
+      if (!is_uneven)
         sums.bound_squared += integrator.unseen_square();
     } else
       for (const auto& piece : trace.pieces(*face))
@@ -289,11 +295,14 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
 
   const double of_flux = std::sqrt(std::max(0., bound_squared));
   double epsilon = 0, missed = 0;
-  if (uneven_columns) {
-    constexpr double negligible = 0.01;
+  if (is_uneven) {
     epsilon = dual.interpolant->error();
-    missed = missed_moment(space, scene, *dual.interpolant, dual.shapes, *columns, gauss,
-                           negligible * of_flux);
+    if (!dual.missed_moment) {
+      const double mesh_error = std::pow(space.n_unknowns(), -0.5 * degree);
+      dual.missed_moment = missed_moment(space, scene, *dual.interpolant, dual.shapes, *columns,
+                                         gauss, 0.01 * mesh_error * dual.interpolant->norm());
+    }
+    missed = *dual.missed_moment;
   }
   if (!system.is_kept)
     system.dual.reset();

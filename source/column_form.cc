@@ -25,15 +25,17 @@ void ColumnForm::add_cell(const ShapeProducts& radial, double length, double bub
 }
 
 void ColumnForm::fix(unsigned int row) {
-  matrix.clear(row);
-  if (inverse.size() > 0)
-    inverse.clear(row);
+  for (BandedMatrix* const each : {&matrix, &inverse})
+    if (each->size() > 0)
+      each->clear(row);
 }
 
 void ColumnForm::factorise() {
-  inverse = matrix;
   is_whole = Utilities::MPI::sum(cuts.size(), zero.get_mpi_communicator()) == 0;
-  if (!is_whole) {
+  if (is_whole)
+    std::swap(inverse, matrix); // of which only the factors are needed
+  else {
+    inverse = matrix;
     std::vector<double> diagonal(size());
     for (unsigned int row = 0; row < size(); ++row)
       diagonal[row] = matrix(row, 0);

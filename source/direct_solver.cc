@@ -26,18 +26,15 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
     factorise(scene);
 
   const Work::Phase phase(work, "contact");
-  std::vector<double> load_of_unknowns;
-  if (load)
-    load_of_unknowns = gather(*load);
-  const bool is_known = is_reduced && load_of_unknowns == this->load;
-  this->load = std::move(load_of_unknowns);
-  if (is_known)
+  if (is_reduced && load.has_value() == this->load.has_value() &&
+      (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
+  this->load = load;
   const unsigned int m = places.size();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
-    reduced_load = cholesky->forward(this->load);
+    reduced_load = cholesky->forward(gather(*load));
     ++work.forward_substitutions;
     contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }

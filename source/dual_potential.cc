@@ -80,15 +80,15 @@ DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
       reference(reference_products(element.degree)), solver(make_symmetric_solver(kind, space)) {}
 
 FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
-                                 const std::vector<EdgePressure>& pressures, ForceColumns* columns,
-                                 Work& work) {
+                                 const std::vector<EdgePressure>& pressures,
+                                 const FieldVector* force_load, Work& work) {
   const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
   if (angular_velocity != scene.angular_velocity)
     assemble_matrix(scene, shapes, constraints, work);
   FieldVector lift = space.make_field();
   constraints.distribute(lift);
   lift.update_ghost_values();
-  FieldVector potential = solver->solve(assemble_load(shapes, constraints, lift, columns), work);
+  FieldVector potential = solver->solve(load_of(lift, shapes, constraints), force_load, work);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;
@@ -119,25 +119,54 @@ void DualPotential::assemble_matrix(const Scene& scene, RadialShapesOfMesh& shap
   angular_velocity = scene.angular_velocity;
 }
 
-FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
-                                         const AffineConstraints<double>& constraints,
-                                         const FieldVector& lift, ForceColumns* columns) const {
+FieldVector DualPotential::force_load(const Scene& scene, RadialShapesOfMesh& shapes,
+                                      ForceColumns& columns) const {
   const unsigned int n = element.degree + 1;
   const QGauss<1> gauss(element.degree + 2);
-  FullMatrix<double> angular_derivative(gauss.size(), n); // on [0, 1]
+  FullMatrix<double> weighted_slope(gauss.size(), n); // on [0, 1]: d/dz dz = d/dt dt
   const auto lagrange = lobatto_lagrange(element.degree);
   std::vector<double> both(2);
   for (unsigned int p = 0; p < gauss.size(); ++p)
     for (unsigned int j = 0; j < n; ++j) {
       lagrange[j].value(gauss.point(p)[0], both);
-      angular_derivative(p, j) = both[1];
+      weighted_slope(p, j) = gauss.weight(p) * both[1];
     }
 
+  const AffineConstraints<double> constraints =
+      potential_constraints(space, scene, std::vector<EdgePressure>(space.surface_faces().size()));
+  std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
+  Vector<double> cell_vector(n * n);
+  std::vector<double> loads(n);
+  FieldVector load = space.make_field();
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    cell->get_dof_indices(dofs);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      ordered[i] = dofs[numbering[i]];
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    ForceLoads& force_loads = columns.loads(low[0], high[0], shapes.on(low[0], high[0]));
+    const auto& lines = columns.on(low[1], high[1]);
+    cell_vector = 0;
+    for (unsigned int p = 0; p < gauss.size(); ++p) {
+      force_loads.integrate(lines[p], loads);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          cell_vector(i + n * j) += weighted_slope(p, j) * loads[i];
+    }
+    constraints.distribute_local_to_global(cell_vector, ordered, load);
+  }
+  load.compress(VectorOperation::add);
+  return load;
+}
+
+FieldVector DualPotential::load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
+                                   const AffineConstraints<double>& constraints) const {
+  const unsigned int n = element.degree + 1;
   FullMatrix<double> cell_matrix(n * n);
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n), cell_lift(n * n);
-  std::vector<double> loads(n);
-  FieldVector rhs = space.make_field();
+  FieldVector load = space.make_field();
   const auto add_cell = [&](const DoFHandler<2>::active_cell_iterator& cell) {
     if (!cell->is_locally_owned())
       return;
@@ -146,40 +175,23 @@ FieldVector DualPotential::assemble_load(RadialShapesOfMesh& shapes,
       ordered[i] = dofs[numbering[i]];
       cell_lift(i) = lift(ordered[i]);
     }
-    const bool has_lift = !cell_lift.all_zero();
-    if (!columns && !has_lift)
+    if (cell_lift.all_zero())
       return;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
-    cell_vector = 0;
-    if (has_lift) {
-      tensor_matrix(radial.products, reference, high[1] - low[1], cell_matrix);
-      cell_matrix.vmult(cell_vector, cell_lift);
-      cell_vector *= -1;
-    }
-    if (columns) {
-      ForceLoads& force_loads = columns->loads(low[0], high[0], radial);
-      const auto& lines = columns->on(low[1], high[1]);
-      for (unsigned int p = 0; p < gauss.size(); ++p) {
-        force_loads.integrate(lines[p], loads);
-        for (unsigned int j = 0; j < n; ++j) {
-          const double slope = gauss.weight(p) * angular_derivative(p, j); // d/dz dz = d/dt dt
-          for (unsigned int i = 0; i < n; ++i)
-            cell_vector(i + n * j) += slope * loads[i];
-        }
-      }
-    }
-    constraints.distribute_local_to_global(cell_vector, ordered, rhs);
+    tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1], cell_matrix);
+    cell_matrix.vmult(cell_vector, cell_lift);
+    cell_vector *= -1;
+    constraints.distribute_local_to_global(cell_vector, ordered, load);
   };
   // Without hanging nodes only cells at the surface and the seam feel the values prescribed there.
-  if (columns || space.dof_handler().get_triangulation().has_hanging_nodes())
+  if (space.dof_handler().get_triangulation().has_hanging_nodes())
     for (const auto& cell : space.dof_handler().active_cell_iterators())
       add_cell(cell);
   else
     for (const auto& cell : space.outer_cells())
       add_cell(cell);
-  rhs.compress(VectorOperation::add);
-  return rhs;
+  load.compress(VectorOperation::add);
+  return load;
 }
 
 } // namespace rollwave

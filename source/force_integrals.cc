@@ -27,7 +27,7 @@ void ForceAtRadii::integrals(const ForceColumn& column, std::vector<double>& val
 }
 
 ForceLoads::ForceLoads(const RadialShapes& radial)
-    : radial(radial), at_radii(radial.r), of_outside(radial.shapes.front().size()),
+    : radial(radial), at_radii(radial.r), of_outside(radial.shapes.size() / radial.r.size()),
       of_coefficients(of_outside.size()) {}
 
 void ForceLoads::integrate(const ForceColumn& column, std::vector<double>& loads) {

@@ -86,17 +86,15 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
     return;
 
   halve_where_fine(scene, space);
-  double norm_squared = 0;
   std::priority_queue<std::pair<double, unsigned int>> worst;
   const auto add = [&](unsigned int i) {
     judge(scene, panels[i]);
-    norm_squared += panels[i].norm_squared;
     worst.push({panels[i].error_squared, i});
   };
   for (unsigned int i = 0; i < panels.size(); ++i)
     if (panels[i].first_half == 0)
       add(i);
-  const double allowed = round_off * round_off * friedrichs_squared * norm_squared;
+  const double allowed = std::pow(round_off * norm(), 2);
   const unsigned int most_panels = panels.size() + 16 + space.n_unknowns() / 100;
   while (!worst.empty() && worst.top().first * panels.size() > allowed &&
          panels.size() < most_panels) {
@@ -336,6 +334,14 @@ void ForceInterpolant::collect(unsigned int number, double z, double begin,
     collect(panel.first_half, z, begin, line);
   if (all || !is_inner)
     collect(panel.first_half + 1, z, begin, line);
+}
+
+double ForceInterpolant::norm() const {
+  double norm_squared = 0;
+  for (const Panel& panel : panels)
+    if (panel.first_half == 0)
+      norm_squared += panel.norm_squared;
+  return std::sqrt(friedrichs_squared * norm_squared);
 }
 
 double ForceInterpolant::error() const {

@@ -29,7 +29,7 @@ void RadialShapes::integrate_over_r(const std::vector<double>& w,
   std::fill(integrals.begin(), integrals.end(), 0.);
   for (unsigned int q = 0; q < r.size(); ++q) {
     const double factor = w[q] * weight_over_r[q];
-    const RadialShape* const shapes_at = shapes[q].data();
+    const RadialShape* const shapes_at = &shapes[integrals.size() * q];
     for (unsigned int i = 0; i < integrals.size(); ++i)
       integrals[i] += factor * shapes_at[i].potential;
   }
@@ -61,10 +61,9 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
     shapes.alpha.push_back(scene.alpha(r));
     const std::vector<double> values = potential_shapes.values(r);
     const std::vector<double> derivatives = potential_shapes.depth_derivatives(r);
-    shapes.shapes.emplace_back();
     for (unsigned int i = 0; i < n; ++i) {
       lagrange[i].value((r - begin) / (end - begin), both);
-      shapes.shapes[q].push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});
+      shapes.shapes.push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});
     }
   }
   shapes.products = {FullMatrix<double>(n), FullMatrix<double>(n)};
@@ -72,7 +71,7 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j) {
         const double r = shapes.r[q], weight = shapes.weight[q];
-        const RadialShape &one = shapes.shapes[q][i], &other = shapes.shapes[q][j];
+        const RadialShape &one = shapes.shapes[n * q + i], &other = shapes.shapes[n * q + j];
         shapes.products.stiffness(i, j) +=
             one.potential_s * other.potential_s * weight * r * shapes.alpha[q]; // ds = r alpha dr
         shapes.products.mass(i, j) += one.potential * other.potential * weight / r;

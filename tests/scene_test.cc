@@ -182,7 +182,8 @@ TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
       EXPECT_NEAR(turned.patch.force / original.patch.force, 1, 1e-11);
       EXPECT_NEAR(turned.certified->upper_bound, bounds.upper_bound, tolerance);
       EXPECT_NEAR(turned.certified->lower_bound, bounds.lower_bound, tolerance);
-      EXPECT_NEAR(turned.certified->energy_norm / bounds.energy_norm, 1, 1e-6);
+      EXPECT_NEAR(turned.certified->energy_norm / bounds.energy_norm, 1,
+                  unevenness == 0 ? 1e-6 : 1e-4);
     }
   }
 }
