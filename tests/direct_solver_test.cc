@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 using namespace rollwave;
 using dealii::FullMatrix;
@@ -123,6 +124,32 @@ TEST(SparseCholesky, SolvesAndMultiplies) {
   }
   triplets.add(n - 1, 0, 0.1);
   EXPECT_TRUE(cholesky.set_matrix(triplets));
+}
+
+TEST(SparseCholesky, SolvesForSparseRightHandSides) {
+  // The five-point star on a square, whose unknowns are eliminated row by row.
+  constexpr int n = 30, size = n * n;
+  LowerTriplets triplets;
+  for (int row = 0; row < size; ++row) {
+    triplets.add(row, row, 4.01);
+    if (row % n > 0)
+      triplets.add(row, row - 1, -1);
+    if (row >= n)
+      triplets.add(row, row - n, -1);
+  }
+  SparseCholesky cholesky(size);
+  EXPECT_TRUE(cholesky.set_matrix(triplets));
+  cholesky.factorise();
+  for (const std::vector<int>& places : std::vector<std::vector<int>>{
+           {}, {0}, {17}, {size / 2}, {size - 1}, {3, size - 2}, {40, 41, 500}}) {
+    SCOPED_TRACE(testing::PrintToString(places));
+    std::vector<double> rhs(size);
+    for (const int place : places)
+      rhs[place] = 1 + place;
+    const std::vector<double> product = cholesky.multiply(cholesky.backward(cholesky.forward(rhs)));
+    for (int row = 0; row < size; ++row)
+      EXPECT_NEAR(product[row], rhs[row], 1e-12 * size) << row;
+  }
 }
 
 TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {

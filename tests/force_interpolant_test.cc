@@ -2,6 +2,7 @@
 #include "errors.h"
 #include "floating_point.h"
 #include "force_columns.h"
+#include "interpolation.h"
 #include "scene.h"
 #include "test_scenes.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <vector>
 
 using namespace rollwave;
 
@@ -159,6 +161,43 @@ TEST(ForceInterpolant, TellsItsErrorAtKinksAndJumps) {
       last = error;
     }
   }
+}
+
+TEST(ForceInterpolant, BoundsWhatARuleMissesAlongZ) {
+  const HalvedRule rules(dealii::QGauss<1>(3));
+  unsigned int n_bounded = 0;
+  for (const char* expression :
+       {"r^2*z^2", "sin(9*z)*exp(r)", "r^3*z^7-z^5", "if(r<0.8+0.1*sin(z),1,0)"}) {
+    const Force force(expression, 6, 72);
+    for (const double begin : {0., 0.4, 3.1, 5.7})
+      for (const double length : {0.01, 0.08, 0.5}) {
+        const double bound = force.interpolant.missed_along_z(begin, begin + length, rules);
+        n_bounded += std::isfinite(bound);
+        for (const double r : {a, 0.6, 0.79, 0.95}) {
+          const auto integrals = [&](const dealii::Quadrature<1>& rule) {
+            std::vector<double> values;
+            for (const auto& point : rule.get_points())
+              values.push_back(force.integral(r, begin + length * point[0]));
+            return values;
+          };
+          const std::vector<double> on_rule = integrals(rules.rule),
+                                    on_fine = integrals(rules.fine);
+          double square = 0;
+          for (unsigned int p = 0; p < on_fine.size(); ++p) {
+            double missed = on_fine[p];
+            for (unsigned int i = 0; i < on_rule.size(); ++i)
+              missed -= rules.interpolation(p, i) * on_rule[i];
+            square += rules.fine.weight(p) * missed * missed;
+          }
+          EXPECT_LE(std::sqrt(square), bound + 1e-12)
+              << expression << " " << begin << " " << length << " " << r;
+        }
+        if (std::string(expression) == "r^2*z^2") {
+          EXPECT_TRUE(bound < 1e-12 || std::isinf(bound)); // of a degree that the rule sees
+        }
+      }
+  }
+  EXPECT_GT(n_bounded, 16u);
 }
 
 TEST(ForceInterpolant, StopsBetweenNeighbouringNumbers) {
