@@ -1,5 +1,6 @@
 // What control groups leave of the memory, read from directories like those of the system.
 #include "control_group.h"
+#include "own_path.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ protected:
 
   double memory() const { return memory_of_control_groups(root / "groups", root); }
 
-  const std::filesystem::path root = std::filesystem::path(testing::TempDir()) / "control_groups";
+  const std::filesystem::path root = own_path();
 };
 
 TEST_F(ControlGroups, LeaveTheLeastOfAllLevels) {

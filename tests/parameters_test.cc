@@ -1,6 +1,7 @@
 // Every value a key admits is read, everything else is refused in one message with all that helps.
 #include "errors.h"
 #include "floating_point.h"
+#include "own_path.h"
 #include "parameters.h"
 #include "scene.h"
 #include "test_scenes.h"
@@ -31,7 +32,7 @@ TEST(Parameters, AreWrittenAndReadBackUnchanged) {
                      "Output/Files=summary"});
   std::ostringstream text;
   print_parameters(text, parameters.settings);
-  const std::filesystem::path file = testing::TempDir() + "/parameters_test.prm";
+  const std::filesystem::path file = own_path();
   std::ofstream(file) << text.str();
   const Parameters again = read_parameters(read_settings(file));
   EXPECT_EQ(again.cylinder.outer_radius, 1.25);

@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_TESTS_PROGRAM_H
 #define ROLLWAVE_TESTS_PROGRAM_H
 
+#include "own_path.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -38,10 +40,7 @@ inline Outcome shell(const std::string& command) {
 /// The program on a small scene, with a directory of its own for each test, empty at first.
 class Program : public testing::Test {
 protected:
-  Program()
-      : directory(std::filesystem::path(testing::TempDir()) /
-                  (std::string("rollwave_") +
-                   testing::UnitTest::GetInstance()->current_test_info()->name())) {
+  Program() : directory(rollwave::own_path()) {
     std::filesystem::remove_all(directory);
     std::filesystem::create_directories(directory);
     std::ofstream(directory / "scene.prm")

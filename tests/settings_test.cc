@@ -1,5 +1,6 @@
 // The reader of parameter files keeps the place of every entry and refuses what it cannot read.
 #include "errors.h"
+#include "own_path.h"
 #include "settings.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ using namespace rollwave;
 namespace {
 
 std::vector<Setting> read_text(const std::string& text) {
-  const std::filesystem::path file = testing::TempDir() + "/settings_test.prm";
+  const std::filesystem::path file = own_path();
   std::ofstream(file) << text;
   return read_settings(file);
 }

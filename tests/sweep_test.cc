@@ -1,4 +1,5 @@
 // Scenes on the mesh of the one before: the same answers, and no work twice.
+#include "own_path.h"
 #include "simulation.h"
 #include "study.h"
 #include "test_scenes.h"
@@ -94,7 +95,7 @@ TEST(SweepStudy, SharesTheWidestZone) {
   std::vector<std::string> assignments = small_mesh;
   assignments.push_back("Study/Vary=Cylinder/Angular velocity = 0.5 | 0.9; Road/Distance = 0.9 | "
                         "0.8 | 0.85; Mesh/Degree = 1 | 2");
-  const auto directory = std::filesystem::path(testing::TempDir()) / "rollwave_sweep";
+  const auto directory = own_path();
   std::filesystem::remove_all(directory);
   std::filesystem::create_directories(directory);
   std::ostringstream progress;
