@@ -148,7 +148,6 @@ TEST(EdgePressures, CarryTheContactForce) {
     }
 }
 
-// Where all of the height answers to what happens on the surface.
 // Without contact the flux G / r is the exact one, and D(tau) = min J = -pi f^2 int r u_1 dr.
 TEST(Certificate, IsAnEqualityWithoutContact) {
   for (const char* degree : {"1", "2"})
@@ -165,6 +164,7 @@ TEST(Certificate, IsAnEqualityWithoutContact) {
     }
 }
 
+// Where all of the height answers to what happens on the surface.
 TEST(Certificate, IsSharpInThinRings) {
   for (const double a : {0.9, 0.99, 0.999})
     for (const double omega : {0., 0.9, 1.}) {
