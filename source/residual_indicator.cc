@@ -100,9 +100,9 @@ private:
 };
 
 /// u on one cell by its nodal values, the radial index running fastest.
+template <unsigned int n>
 struct CellField {
-  unsigned int n;
-  std::array<double, most_nodes * most_nodes> nodal;
+  std::array<double, n * n> nodal;
 
   double sum(const NodeValues& radial, const NodeValues& angular) const {
     double result = 0;
@@ -174,19 +174,23 @@ Lengths lengths_of(const Rectangle& box, const Scene& scene) {
               middle};
 }
 
-/// The mean over a cell of the square of a residual, its values at the points of a product of @p
-/// rule with z in rows and r in columns, with the length of its direction for what varies in one
+/// At the points of a product of rules on a cell, z in rows and r in columns.
+template <unsigned int n>
+using ResidualValues = std::array<std::array<double, n>, n>;
+
+/// The mean over a cell of the square of a residual, its values at the points of @p rule in each
+/// direction, with the length of its direction for what varies in one
 /// direction only, and the lesser length for all else.
-double weighted_square(const FullMatrix<double>& residual, const Quadrature<1>& rule,
+template <unsigned int n>
+double weighted_square(const ResidualValues<n>& residual, const QGauss<1>& rule,
                        const Lengths& length) {
-  const unsigned int n = rule.size();
-  NodeValues of_z = {}, of_r = {};
+  std::array<double, n> of_z = {}, of_r = {};
   double mean = 0;
   for (unsigned int p = 0; p < n; ++p)
     for (unsigned int q = 0; q < n; ++q) {
-      of_z[p] += rule.weight(q) * residual(p, q);
-      of_r[q] += rule.weight(p) * residual(p, q);
-      mean += rule.weight(p) * rule.weight(q) * residual(p, q);
+      of_z[p] += rule.weight(q) * residual[p][q];
+      of_r[q] += rule.weight(p) * residual[p][q];
+      mean += rule.weight(p) * rule.weight(q) * residual[p][q];
     }
   double sum = 0;
   for (unsigned int p = 0; p < n; ++p) {
@@ -194,19 +198,19 @@ double weighted_square(const FullMatrix<double>& residual, const Quadrature<1>& 
                              length.radial * std::pow(of_r[p] - mean, 2));
     for (unsigned int q = 0; q < n; ++q)
       sum += rule.weight(p) * rule.weight(q) * length.both() *
-             std::pow(residual(p, q) - of_z[p] - of_r[q] + 2 * mean, 2);
+             std::pow(residual[p][q] - of_z[p] - of_r[q] + 2 * mean, 2);
   }
   return sum;
 }
 
-} // namespace
-
-std::vector<double> residual_indicator(const RingSpace& space, const Scene& scene,
-                                       const ContactProblem& problem,
-                                       const ContactSolution& contact, const FieldVector& field) {
+/// With n nodes on each side of a cell, a number for the compiler: half of the time.
+template <unsigned int n>
+std::vector<double> indicate(const RingSpace& space, const Scene& scene,
+                             const ContactProblem& problem, const ContactSolution& contact,
+                             const FieldVector& field) {
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const auto& triangulation = space.dof_handler().get_triangulation();
-  const unsigned int degree = element.degree, n = degree + 1;
+  constexpr unsigned int degree = n - 1;
   const QGauss<1> gauss(n);
   const auto& points = gauss.get_points();
   const LineShapes inside(degree, mapped(points, 0, 1)), ends(degree, {0, 1});
@@ -215,8 +219,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   std::vector<types::global_dof_index> dofs(n * n);
   const auto gather = [&](const auto& cell) {
-    CellField u;
-    u.n = n;
+    CellField<n> u;
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < n * n; ++i)
       u.nodal[i] = field(dofs[numbering[i]]);
@@ -232,13 +235,12 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   std::vector<double> squares(triangulation.n_active_cells());
   std::vector<Lengths> lengths(triangulation.n_active_cells());
   ForceMoment moment(degree, gauss);
-  FullMatrix<double> residual(n);
-  Vector<double> radial_mode(n), angular_mode(n);
+  ResidualValues<n> residual;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
       continue;
     const Rectangle box = rectangle_of(cell);
-    const CellField u = gather(cell);
+    const CellField<n> u = gather(cell);
     const double h_r = box.height(), h_z = box.length(), per_r = 1 / h_r, per_z = 1 / h_z;
     const Lengths length = lengths[cell->active_cell_index()] = lengths_of(box, scene);
     NodeValues alpha_r; // at the points of the rule
@@ -249,8 +251,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
 
     if (scene.force)
       moment.reinit(scene, box);
-    radial_mode = 0;
-    angular_mode = 0;
+    std::array<double, n> radial_mode = {}, angular_mode = {};
     for (unsigned int p = 0; p < n; ++p) {
       // Along the line z = const: u and its first two derivatives by z at the radial nodes
       NodeValues line, line_z, line_zz;
@@ -264,7 +265,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
         line_z[i] *= per_z;
         line_zz[i] *= per_z * per_z;
       }
-      const auto sum = [n](const NodeValues& radial, const NodeValues& on_line) {
+      const auto sum = [](const NodeValues& radial, const NodeValues& on_line) {
         double result = 0;
         for (unsigned int i = 0; i < n; ++i)
           result += radial[i] * on_line[i];
@@ -273,23 +274,23 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       for (unsigned int q = 0; q < n; ++q) {
         const double r = box.r0 + h_r * points[q][0];
         const double u_r = sum(inside.first[q], line) * per_r;
-        residual(p, q) = u_r;
+        residual[p][q] = u_r;
         if (degree > 1)
-          residual(p, q) += r * sum(inside.second[q], line) * per_r * per_r +
+          residual[p][q] += r * sum(inside.second[q], line) * per_r * per_r +
                             alpha_r[q] * sum(inside.value[q], line_zz);
         if (scene.force)
-          residual(p, q) += moment.value(p, q);
-        radial_mode(q) += highest_mode[p] * u_r;
-        angular_mode(p) += highest_mode[q] * sum(inside.value[q], line_z);
+          residual[p][q] += moment.value(p, q);
+        radial_mode[q] += highest_mode[p] * u_r;
+        angular_mode[p] += highest_mode[q] * sum(inside.value[q], line_z);
       }
     }
     const double middle = (box.r0 + box.r1) / 2, alpha = scene.alpha(middle);
     double unbalanced = 0;
     for (unsigned int q = 0; q < n; ++q)
       unbalanced += gauss.weight(q) * middle *
-                    (radial_mode(q) * radial_mode(q) + alpha * angular_mode(q) * angular_mode(q));
+                    (radial_mode[q] * radial_mode[q] + alpha * angular_mode[q] * angular_mode[q]);
     squares[cell->active_cell_index()] =
-        h_r * h_z * (weighted_square(residual, gauss, length) + exact_parts_weight * unbalanced);
+        h_r * h_z * (weighted_square<n>(residual, gauss, length) + exact_parts_weight * unbalanced);
 
     for (const unsigned int f : cell->face_indices()) {
       if (f < 2 && cell->at_boundary(f))
@@ -353,7 +354,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       continue;
     const SurfaceFace& face = space.surface_faces()[*space.surface_face(cell)];
     const Rectangle box = rectangle_of(cell);
-    const CellField u = gather(cell);
+    const CellField<n> u = gather(cell);
     NodeValues pressure = {};
     unsigned int n_active = 0, n_contact = 0;
     for (unsigned int k = 0; k < n; ++k)
@@ -392,6 +393,16 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
   for (double& value : squares)
     value = std::sqrt(value);
   return squares;
+}
+
+} // namespace
+
+std::vector<double> residual_indicator(const RingSpace& space, const Scene& scene,
+                                       const ContactProblem& problem,
+                                       const ContactSolution& contact, const FieldVector& field) {
+  return space.dof_handler().get_fe().degree == 1
+             ? indicate<2>(space, scene, problem, contact, field)
+             : indicate<3>(space, scene, problem, contact, field);
 }
 
 } // namespace rollwave
