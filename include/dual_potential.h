@@ -2,7 +2,6 @@
 #define ROLLWAVE_DUAL_POTENTIAL_H
 
 #include "edge_pressure.h"
-#include "force_columns.h"
 #include "radial_shapes.h"
 #include "ring_space.h"
 #include "symmetric_solver.h"
@@ -36,15 +35,10 @@ public:
   /// @p kind is that of make_symmetric_solver().
   DualPotential(const RingSpace& space, SolverKind kind);
 
-  /// int G psi_z / r dr dz, the same for all pressures.
-  /// @param columns with lines at Gauss' degree + 2 points
-  FieldVector force_load(const Scene& scene, RadialShapesOfMesh& shapes,
-                         ForceColumns& columns) const;
-
   /// The nodal values of psi, both sides of the seam having their own.
   /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
-  /// @param force_load nullptr when G is a function of r, which does no work: int psi_z dz = 0 for
-  /// every periodic psi
+  /// @param force_load int G psi_z / r dr dz, nullptr when G is a function of r, which does no
+  /// work: int psi_z dz = 0 for every periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
                     const std::vector<EdgePressure>& pressures, const FieldVector* force_load,
@@ -65,6 +59,11 @@ private:
   std::optional<double> angular_velocity; ///< of the scene that the matrix belongs to
   std::unique_ptr<SymmetricSolver> solver;
 };
+
+/// What ties the nodal values of a potential: given on r = b by the pressures (as in
+/// DualPotential::solve()), growing in a period, continuous elsewhere.
+dealii::AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
+                                                        const std::vector<EdgePressure>& pressures);
 
 } // namespace rollwave
 

@@ -34,7 +34,11 @@ struct Scene;
  * again in each direction.
  *
  * Panels are halved until each has a small share of the mesh's cells, then the worst first until
- * f_0 is f but for round-off, as many as the mesh pays for; in the direction in which f is rougher.
+ * they leave out 1e-5 of what is negligible, as many as the mesh pays for; in the direction in
+ * which f is rougher. They are not halved either where even the mean of f would leave out a
+ * negligible part. There f_0 becomes that mean, and m_0 the root mean square of m, unless the
+ * polynomial is ten times as good: whether the points beside a jump happen to agree shall not
+ * matter.
  */
 class ForceInterpolant {
 public:
@@ -45,6 +49,10 @@ public:
   /// The pieces of a line beyond the radius @p begin.
   ForceColumn column(double z, double begin = 0) const;
 
+  /// Those of the lines at the points of a rule for [begin, end].
+  std::vector<ForceColumn> columns(double begin, double end,
+                                   const dealii::Quadrature<1>& rule) const;
+
   /// A bound, for any radius, of the root mean square over z in [begin, end], at the points of the
   /// fine rule, of G less the polynomial that equals it at the points of the rule, from the
   /// coefficients. Infinite where panels end in between.
@@ -53,13 +61,23 @@ public:
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }
 
-  /// C ||f||, a bound of (f, w) / |w| for all w, |w|^2 = a(w, w). Not of a force that is exact.
-  double norm() const;
-
-  /// A bound of (f - f_0, w) / |w|.
+  /// A bound of (f - f_0, w) / |w| for all w, |w|^2 = a(w, w).
   double error() const;
 
+  /// N^(-p/2) C ||f|| / 100, N unknowns of degree p: an error of the load that is small beside the
+  /// mesh's own. Not of a force that is exact.
+  double negligible() const { return negligible_error; }
+
 private:
+  struct MeanSquares;
+
+  /// What is left out of f on a panel.
+  struct Missed {
+    double mean = 0;                              ///< by how much that of rho f may be off
+    double local_squared = 0, global_squared = 0; ///< of the rest, by Poincare and by Friedrichs
+    double varying_squared() const { return local_squared + global_squared; }
+  };
+
   struct Panel {
     dealii::Point<2> low, high;
     unsigned int first_half = 0;             ///< among the panels, the second follows; 0: is whole
@@ -67,9 +85,8 @@ private:
     dealii::FullMatrix<double> coefficients; ///< of rho f_0, in r and z
     unsigned int n_rows = 0;                 ///< of these, in z, that are more than round-off
     double norm_squared = 0;                 ///< int r f^2 dr dz
-    double mean = 0;                         ///< by how much that of rho f may be off
-    double local_squared = 0, global_squared = 0; ///< of the rest, by Poincare and by Friedrichs
-    double error_squared = 0;                     ///< all that, as if this panel were alone
+    Missed missed;                           ///< by f_0
+    Missed beside_mean;                      ///< if f_0 were the mean of f
   };
 
   /// Halves the panels that have more than their share of the cells.
@@ -86,6 +103,9 @@ private:
 
   void collect(unsigned int panel, double z, double begin, std::vector<unsigned int>& line) const;
 
+  /// The pieces of the line z in [0, 2 pi) on these panels.
+  ForceColumn column_on(const std::vector<unsigned int>& line, double z) const;
+
   /// r f at a point given by shares of the panel's sides.
   static double moment(const Scene& scene, const Panel& panel, const dealii::Point<2>& share);
 
@@ -94,9 +114,22 @@ private:
   /// What f_0 leaves out of f, but for its mean, which f_0 gets.
   void judge(const Scene& scene, Panel& panel) const;
 
+  Missed weigh(const Scene& scene, const Panel& panel, const MeanSquares& squares,
+               double mean) const;
+
+  /// The square of the bound as if nothing were left out elsewhere.
+  double squared_alone(const Panel& panel, const Missed& missed) const;
+
+  /// f_0 becomes the mean of f.
+  static void flatten(Panel& panel);
+
+  /// C ||f||, a bound of (f, w) / |w|.
+  double friedrichs_norm() const;
+
   const bool exact;
   const double friedrichs_squared; ///< C^2 of ||w|| <= C |w|
-  std::vector<Panel> panels;       ///< the ring first, halves after their whole
+  double negligible_error = 0;
+  std::vector<Panel> panels; ///< the ring first, halves after their whole
 };
 
 } // namespace rollwave

@@ -3,6 +3,7 @@
 
 #include "bubble_columns.h"
 #include "dual_potential.h"
+#include "force_contribution.h"
 #include "solver_choice.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -32,11 +33,9 @@ struct DualParts {
   const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
   std::optional<ForceColumns> columns;         ///< with lines at its points
 
-  // Made by the first certificate; the last three for an uneven force.
+  // Made by the first certificate.
   std::optional<BubbleColumns> bubbles;
-  std::optional<FieldVector> potential_load;      ///< DualPotential::force_load()
-  std::optional<std::vector<double>> bubble_load; ///< AngularBubbles::force_load()
-  std::optional<double> missed_moment;
+  std::optional<ForceContribution> of_force; ///< of an uneven one
 };
 
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another

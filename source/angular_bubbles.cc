@@ -60,8 +60,7 @@ std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   std::vector<types::global_dof_index> dofs(n * n);
   std::vector<double> psi_bubble(n);
-  std::vector<double> load_of_row =
-      force_load ? *force_load : std::vector<double>(columns.form.size());
+  std::vector<double> load_of_row(columns.form.size());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
@@ -78,6 +77,9 @@ std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)
         load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
+    if (force_load)
+      for (unsigned int i = 0; i < n; ++i)
+        load[i] += (*force_load)[n * cell->active_cell_index() + i];
   }
   for (const auto& [row, edge] : columns.surface_rows) {
     if (!(pressures[edge].mean > 0))
@@ -130,28 +132,6 @@ AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
   }
   field += form.follow(std::move(change), changed_rows);
   field.update_ghost_values();
-}
-
-std::vector<double> AngularBubbles::force_load(const RingSpace& space, RadialShapesOfMesh& shapes,
-                                               ForceColumns& force_columns,
-                                               const BubbleColumns& columns) {
-  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
-  const AngularIntegrals integrals(degree);
-  std::vector<double> loads(n), load_of_row(columns.form.size());
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    ForceLoads& force_loads = force_columns.loads(low[0], high[0], shapes.on(low[0], high[0]));
-    const auto& lines = force_columns.on(low[1], high[1]);
-    double* const load = &load_of_row[columns.first_rows[cell->active_cell_index()]];
-    for (unsigned int p = 0; p < integrals.gauss.size(); ++p) {
-      force_loads.integrate(lines[p], loads);
-      for (unsigned int i = 0; i < n; ++i)
-        load[i] += (high[1] - low[1]) * integrals.weighted_mode[p] * loads[i];
-    }
-  }
-  return load_of_row;
 }
 
 void AngularBubbles::values(const std::vector<types::global_dof_index>& dofs,

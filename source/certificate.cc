@@ -1,10 +1,10 @@
 #include "certificate.h"
 
 #include "angular_bubbles.h"
+#include "constant_size.h"
 #include "edge_pressure.h"
 #include "force_columns.h"
 #include "mesh_system.h"
-#include "missed_moment.h"
 #include "parameters.h"
 #include "scene.h"
 #include "work.h"
@@ -12,6 +12,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -24,24 +25,26 @@ using namespace dealii;
 
 namespace {
 
+/// At the nodes on one side of a cell.
+using NodeValues = std::array<double, highest_degree + 1>;
+
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
   double t;
-  std::vector<double> value;
-  std::vector<double> derivative; ///< d/dt
-  double bubble;                  ///< of AngularBubbles: beta
-  double mode;                    ///< P
+  NodeValues value, derivative; ///< the latter d/dt
+  double bubble;                ///< of AngularBubbles: beta
+  double mode;                  ///< P
 
   AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
                 const Polynomials::Polynomial<double>& beta, double t)
       : t(t) {
-    std::vector<double> both(2);
-    for (const auto& shape : lagrange) {
-      shape.value(t, both);
-      value.push_back(both[0]);
-      derivative.push_back(both[1]);
+    double both[2];
+    for (unsigned int j = 0; j < lagrange.size(); ++j) {
+      lagrange[j].value(t, 1, both);
+      value[j] = both[0];
+      derivative[j] = both[1];
     }
-    beta.value(t, both);
+    beta.value(t, 1, both);
     bubble = both[0];
     mode = both[1];
   }
@@ -123,8 +126,8 @@ public:
   /// On one line, with the correction c of v on the surface.
   LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
                         const std::vector<double>* moments) const {
-    return n == 2 ? on_line_of<2>(angular, correction, moments)
-                  : on_line_of<3>(angular, correction, moments);
+    return with_constant_size(
+        n, [&](auto size) { return on_line_of(size, angular, correction, moments); });
   }
 
   /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
@@ -145,13 +148,13 @@ public:
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
-  /// With n shape functions in each direction, a number for the compiler: half of the time.
-  template <unsigned int n>
-  LineIntegrals on_line_of(const AngularShapes& angular,
+  /// With @p n shape functions in each direction.
+  template <typename Size>
+  LineIntegrals on_line_of(Size n, const AngularShapes& angular,
                            const FeasibleTrace::Correction& correction,
                            const std::vector<double>* moments) const {
     // Coefficients along the line of u, psi and their angular derivatives
-    std::array<double, n> line_u, line_u_z, line_psi, line_psi_z;
+    NodeValues line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -239,20 +242,18 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto pressures = edge_pressures(space, scene, contact);
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
-  if (is_uneven && !dual.potential_load)
-    dual.potential_load = system.potential->force_load(scene, dual.shapes, *columns);
+  if (is_uneven && !dual.of_force)
+    dual.of_force.emplace(space, scene, *dual.interpolant, dual.shapes, *columns, gauss);
   const FieldVector potential = system.potential->solve(
-      scene, dual.shapes, pressures, is_uneven ? &*dual.potential_load : nullptr, work);
+      scene, dual.shapes, pressures, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
     system.potential.reset();
   if (!dual.bubbles)
     dual.bubbles.emplace(space, dual.shapes);
-  if (is_uneven && !dual.bubble_load)
-    dual.bubble_load = AngularBubbles::force_load(space, dual.shapes, *columns, *dual.bubbles);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
   const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,
-                               is_uneven ? &*dual.bubble_load : nullptr, *dual.bubbles);
+                               is_uneven ? &dual.of_force->to_bubbles : nullptr, *dual.bubbles);
   Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns);
   std::vector<AngularShapes> lines;
   for (const auto& point : gauss.get_points())
@@ -297,12 +298,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   double epsilon = 0, missed = 0;
   if (is_uneven) {
     epsilon = dual.interpolant->error();
-    if (!dual.missed_moment) {
-      const double mesh_error = std::pow(space.n_unknowns(), -0.5 * degree);
-      dual.missed_moment = missed_moment(space, scene, *dual.interpolant, dual.shapes, *columns,
-                                         gauss, 0.01 * mesh_error * dual.interpolant->norm());
-    }
-    missed = *dual.missed_moment;
+    missed = dual.of_force->missed;
   }
   if (!system.is_kept)
     system.dual.reset();

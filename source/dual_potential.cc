@@ -40,7 +40,8 @@ std::vector<std::vector<double>> surface_potential(const RingSpace& space,
   return values;
 }
 
-/// psi given on r = b, growing in a period, continuous elsewhere.
+} // namespace
+
 AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
                                                 const std::vector<EdgePressure>& pressures) {
   double growth = 0;
@@ -71,8 +72,6 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
   constraints.close();
   return constraints;
 }
-
-} // namespace
 
 DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
     : space(space), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
@@ -117,47 +116,6 @@ void DualPotential::assemble_matrix(const Scene& scene, RadialShapesOfMesh& shap
       },
       work);
   angular_velocity = scene.angular_velocity;
-}
-
-FieldVector DualPotential::force_load(const Scene& scene, RadialShapesOfMesh& shapes,
-                                      ForceColumns& columns) const {
-  const unsigned int n = element.degree + 1;
-  const QGauss<1> gauss(element.degree + 2);
-  FullMatrix<double> weighted_slope(gauss.size(), n); // on [0, 1]: d/dz dz = d/dt dt
-  const auto lagrange = lobatto_lagrange(element.degree);
-  std::vector<double> both(2);
-  for (unsigned int p = 0; p < gauss.size(); ++p)
-    for (unsigned int j = 0; j < n; ++j) {
-      lagrange[j].value(gauss.point(p)[0], both);
-      weighted_slope(p, j) = gauss.weight(p) * both[1];
-    }
-
-  const AffineConstraints<double> constraints =
-      potential_constraints(space, scene, std::vector<EdgePressure>(space.surface_faces().size()));
-  std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
-  Vector<double> cell_vector(n * n);
-  std::vector<double> loads(n);
-  FieldVector load = space.make_field();
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      ordered[i] = dofs[numbering[i]];
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    ForceLoads& force_loads = columns.loads(low[0], high[0], shapes.on(low[0], high[0]));
-    const auto& lines = columns.on(low[1], high[1]);
-    cell_vector = 0;
-    for (unsigned int p = 0; p < gauss.size(); ++p) {
-      force_loads.integrate(lines[p], loads);
-      for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i)
-          cell_vector(i + n * j) += weighted_slope(p, j) * loads[i];
-    }
-    constraints.distribute_local_to_global(cell_vector, ordered, load);
-  }
-  load.compress(VectorOperation::add);
-  return load;
 }
 
 FieldVector DualPotential::load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,

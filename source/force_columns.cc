@@ -3,12 +3,7 @@
 namespace rollwave {
 
 const std::vector<ForceColumn>& ForceColumns::on(double begin, double end) {
-  return columns.at(begin, end, [&] {
-    std::vector<ForceColumn> lines;
-    for (const auto& point : rule.get_points())
-      lines.push_back(force.column(begin + (end - begin) * point[0]));
-    return lines;
-  });
+  return columns.at(begin, end, [&] { return force.columns(begin, end, rule); });
 }
 
 ForceAtRadii& ForceColumns::at_radii(double begin, double end, const RadialShapes& radial) {

@@ -47,9 +47,11 @@ const PanelPoints& points() {
   return all;
 }
 
+} // namespace
+
 /// The mean of what is given at the points of a product of a rule, and the mean squares of its
 /// parts without it: a function of z (rows), a function of r (columns), and the rest.
-struct MeanSquares {
+struct ForceInterpolant::MeanSquares {
   MeanSquares(const FullMatrix<double>& values, const Quadrature<1>& rule) {
     std::vector<double> mean_z(rule.size()), mean_r(rule.size());
     double square = 0;
@@ -71,8 +73,6 @@ struct MeanSquares {
   double mean = 0, of_z = 0, of_r = 0, rest;
 };
 
-} // namespace
-
 ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
     : exact(scene.uniform_force.has_value()),
       friedrichs_squared(contact_free_unit_displacement(scene.inner_radius, scene.outer_radius,
@@ -89,17 +89,31 @@ ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene)
   std::priority_queue<std::pair<double, unsigned int>> worst;
   const auto add = [&](unsigned int i) {
     judge(scene, panels[i]);
-    worst.push({panels[i].error_squared, i});
+    worst.push({squared_alone(panels[i], panels[i].missed), i});
   };
   for (unsigned int i = 0; i < panels.size(); ++i)
     if (panels[i].first_half == 0)
       add(i);
-  const double allowed = std::pow(round_off * norm(), 2);
+  const double norm = friedrichs_norm();
   const unsigned int most_panels = panels.size() + 16 + space.n_unknowns() / 100;
-  while (!worst.empty() && worst.top().first * panels.size() > allowed &&
-         panels.size() < most_panels) {
-    const unsigned int i = worst.top().second;
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  negligible_error = 0.01 * std::pow(space.n_unknowns(), -0.5 * degree) * norm;
+  const double negligible_squared = std::pow(negligible_error, 2) / most_panels;
+  const double allowed_squared =
+      std::max(std::pow(round_off * norm, 2) / most_panels, 1e-10 * negligible_squared);
+  while (!worst.empty() && panels.size() < most_panels) {
+    const auto [error_squared, i] = worst.top();
     worst.pop();
+    const Missed& beside_mean = panels[i].beside_mean;
+    const bool is_resolved =
+        panels[i].missed.varying_squared() <= beside_mean.varying_squared() / 100;
+    if (is_resolved && error_squared <= allowed_squared)
+      continue;
+    if (squared_alone(panels[i], beside_mean) <= negligible_squared) {
+      if (!is_resolved)
+        flatten(panels[i]);
+      continue;
+    }
     const unsigned int direction = rougher_direction(panels[i]);
     if (panels[i].high[direction] - panels[i].low[direction] < smallest * panels[i].high[direction])
       continue; // a jump between neighbouring numbers
@@ -114,15 +128,20 @@ void ForceInterpolant::halve_where_fine(const Scene& scene, const RingSpace& spa
   std::vector<Point<2>> centers;
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->is_locally_owned()) {
-      const Point<2> center = cell->center();
-      centers.emplace_back(center[0], std::fmod(center[1], 2 * numbers::PI));
+      const Point<2> center = cell->vertex(0) + (cell->vertex(3) - cell->vertex(0)) / 2;
+      const double period = center[1] < 2 * numbers::PI ? 0 : 2 * numbers::PI;
+      centers.emplace_back(center[0], center[1] - period);
     }
   const unsigned int n_cells = triangulation.n_global_active_cells();
   const double most_cells = n_cells * std::max(1. / 32, 128. / space.n_unknowns());
-  std::vector<std::vector<Point<2>>> own_cells = {std::move(centers)}; // of each panel
-  std::vector<unsigned int> all_cells = {n_cells};
+  struct Cells {
+    std::vector<Point<2>>::iterator begin, end; ///< of the own centers on a panel
+    unsigned int n_all;                         ///< on all processes
+  };
+  std::vector<Cells> cells = {{centers.begin(), centers.end(), n_cells}};
   for (unsigned int i = 0; i < panels.size(); ++i) {
-    if (all_cells[i] <= most_cells)
+    const Cells whole = cells[i];
+    if (whole.n_all <= most_cells)
       continue;
     unsigned int direction = rougher_direction(panels[i]);
     const Tensor<1, 2> size = panels[i].high - panels[i].low, all = panels[0].high - panels[0].low;
@@ -130,14 +149,12 @@ void ForceInterpolant::halve_where_fine(const Scene& scene, const RingSpace& spa
       direction = 1 - direction; // does not reach single cells along a jump
     halve(scene, i, direction);
     const double middle = panels.back().low[direction];
-    std::vector<Point<2>> inner, outer;
-    for (const Point<2>& center : own_cells[i])
-      (center[direction] < middle ? inner : outer).push_back(center);
+    const auto outer = std::partition(
+        whole.begin, whole.end, [&](const Point<2>& center) { return center[direction] < middle; });
     const unsigned int n_inner =
-        Utilities::MPI::sum<unsigned int>(inner.size(), triangulation.get_communicator());
-    all_cells.insert(all_cells.end(), {n_inner, all_cells[i] - n_inner});
-    own_cells.push_back(std::move(inner));
-    own_cells.push_back(std::move(outer));
+        Utilities::MPI::sum<unsigned int>(outer - whole.begin, triangulation.get_communicator());
+    cells.push_back({whole.begin, outer, n_inner});
+    cells.push_back({outer, whole.end, whole.n_all - n_inner});
   }
 }
 
@@ -200,23 +217,28 @@ void ForceInterpolant::interpolate(const Scene& scene, Panel& panel) {
 
 void ForceInterpolant::judge(const Scene& scene, Panel& panel) const {
   const QGauss<1>& rule = points().fine;
-  FullMatrix<double> rows(rule.size(), n), missed(rule.size());
+  FullMatrix<double> rows(rule.size(), n), missed(rule.size()), all(rule.size());
   points().to_values.mmult(rows, panel.coefficients);
   rows.mTmult(missed, points().to_values);
   const Tensor<1, 2> size = panel.high - panel.low;
   panel.norm_squared = 0;
   for (unsigned int q = 0; q < rule.size(); ++q)
     for (unsigned int p = 0; p < rule.size(); ++p) {
-      const double exact_value = moment(scene, panel, {rule.point(p)[0], rule.point(q)[0]});
-      missed(q, p) = exact_value - missed(q, p);
-      panel.norm_squared += size[0] * size[1] * rule.weight(p) * rule.weight(q) * exact_value *
-                            exact_value / (panel.low[0] + rule.point(p)[0] * size[0]);
+      all(q, p) = moment(scene, panel, {rule.point(p)[0], rule.point(q)[0]});
+      missed(q, p) = all(q, p) - missed(q, p);
+      panel.norm_squared += size[0] * size[1] * rule.weight(p) * rule.weight(q) * all(q, p) *
+                            all(q, p) / (panel.low[0] + rule.point(p)[0] * size[0]);
     }
-  const MeanSquares squares(missed, rule);
-  panel.coefficients(0, 0) += squares.mean;
+  const MeanSquares of_missed(missed, rule), of_all(all, rule);
+  panel.coefficients(0, 0) += of_missed.mean;
+  panel.missed = weigh(scene, panel, of_missed, std::abs(of_missed.mean));
+  panel.beside_mean =
+      weigh(scene, panel, of_all, std::sqrt(of_all.of_z + of_all.of_r + of_all.rest));
+}
 
-  panel.mean = std::abs(squares.mean);
-
+ForceInterpolant::Missed ForceInterpolant::weigh(const Scene& scene, const Panel& panel,
+                                                 const MeanSquares& squares, double mean) const {
+  const Tensor<1, 2> size = panel.high - panel.low;
   // Factors of the squares; the speed may be a rounding beyond the critical one.
   const double by_r = std::pow(size[0] / numbers::PI, 2) / panel.low[0];
   const double by_norm = friedrichs_squared / panel.low[0];
@@ -227,16 +249,50 @@ void ForceInterpolant::judge(const Scene& scene, Panel& panel) const {
   const double of_z = size[0] * size[1] * by_z * squares.of_z;
   const double local =
       by_r * squares.of_r + (is_local ? std::min(by_r, by_z) : by_r) * squares.rest;
-  panel.local_squared = size[0] * size[1] * local + (is_local ? of_z : 0);
-  panel.global_squared = is_local ? 0 : of_z;
+  return {mean, size[0] * size[1] * local + (is_local ? of_z : 0), is_local ? 0 : of_z};
+}
+
+double ForceInterpolant::squared_alone(const Panel& panel, const Missed& missed) const {
+  const Tensor<1, 2> size = panel.high - panel.low;
   const double by_integral = size[0] * log_of_ratio(panel.high[0], panels[0].low[0]);
-  panel.error_squared = panel.local_squared + panel.global_squared +
-                        size[0] * size[1] * by_integral * panel.mean * panel.mean;
+  return missed.varying_squared() + size[0] * size[1] * by_integral * missed.mean * missed.mean;
+}
+
+void ForceInterpolant::flatten(Panel& panel) {
+  const double mean = panel.coefficients(0, 0);
+  panel.coefficients = 0;
+  panel.coefficients(0, 0) = mean;
+  panel.n_rows = 1;
+  panel.missed = panel.beside_mean;
 }
 
 ForceColumn ForceInterpolant::column(double z, double begin) const {
   z = std::fmod(z, 2 * numbers::PI);
-  const std::vector<unsigned int> line = panels_on(z, begin);
+  return column_on(panels_on(z, begin), z);
+}
+
+std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
+                                                   const Quadrature<1>& rule) const {
+  std::vector<ForceColumn> lines;
+  std::vector<unsigned int> panels_there;
+  double low = 0, high = 0; // where these are the panels
+  for (const auto& point : rule.get_points()) {
+    const double z = std::fmod(begin + (end - begin) * point[0], 2 * numbers::PI);
+    if (z < low || z >= high) {
+      panels_there = panels_on(z, 0);
+      low = 0;
+      high = panels[0].high[1];
+      for (const unsigned int i : panels_there) {
+        low = std::max(low, panels[i].low[1]);
+        high = std::min(high, panels[i].high[1]);
+      }
+    }
+    lines.push_back(column_on(panels_there, z));
+  }
+  return lines;
+}
+
+ForceColumn ForceInterpolant::column_on(const std::vector<unsigned int>& line, double z) const {
   ForceColumn pieces;
   pieces.reserve(line.size());
   double angular_begin = 0, angular_end = 0; // which many panels along r have in common
@@ -336,7 +392,7 @@ void ForceInterpolant::collect(unsigned int number, double z, double begin,
     collect(panel.first_half + 1, z, begin, line);
 }
 
-double ForceInterpolant::norm() const {
+double ForceInterpolant::friedrichs_norm() const {
   double norm_squared = 0;
   for (const Panel& panel : panels)
     if (panel.first_half == 0)
@@ -349,8 +405,8 @@ double ForceInterpolant::error() const {
   std::vector<double> angles = {2 * numbers::PI};
   for (const Panel& panel : panels)
     if (panel.first_half == 0) {
-      local += panel.local_squared;
-      global += panel.global_squared;
+      local += panel.missed.local_squared;
+      global += panel.missed.global_squared;
       angles.push_back(panel.low[1]);
     }
   std::sort(angles.begin(), angles.end());
@@ -361,7 +417,8 @@ double ForceInterpolant::error() const {
     double outer = 0;
     for (unsigned int k = line.size(); k-- > 0;) {
       const Panel& panel = panels[line[k]];
-      const double height = panel.high[0] - panel.low[0], inner = outer + height * panel.mean;
+      const double height = panel.high[0] - panel.low[0],
+                   inner = outer + height * panel.missed.mean;
       of_means += (angles[j + 1] - angles[j]) * height / panel.low[0] *
                   (outer * outer + outer * inner + inner * inner) / 3;
       outer = inner;

@@ -42,8 +42,10 @@ double missed_square(const HalvedRule& rules, const std::vector<ForceColumn>& li
   return square;
 }
 
+} // namespace
+
 /// The rule of a radial interval and a finer one.
-class RadialRules {
+class MissedMoment::RadialRules {
 public:
   RadialRules(double begin, double end, const QGauss<1>& gauss, const std::vector<double>& radii)
       : rules(gauss), rule(graded_rule(begin, end, rules.fine)), radii(radii), at_radii(radii),
@@ -109,52 +111,39 @@ private:
   ForcePiece::Coefficients missed_norms;
 };
 
-/// Lines at the finer points of an angular interval, if they have to be looked at.
-struct FineLines {
-  double mean_square; ///< of what is missed of G, for any radius
-  std::vector<ForceColumn> columns;
-};
+MissedMoment::MissedMoment(const Scene& scene, const ForceInterpolant& force,
+                           RadialShapesOfMesh& shapes, ForceColumns& columns,
+                           const QGauss<1>& gauss)
+    : force(force), shapes(shapes), columns(columns), angular(gauss),
+      negligible_mean_square(
+          std::pow(force.negligible(), 2) /
+          (2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {}
 
-} // namespace
+MissedMoment::~MissedMoment() = default;
 
-double missed_moment(const RingSpace& space, const Scene& scene, const ForceInterpolant& force,
-                     RadialShapesOfMesh& shapes, ForceColumns& columns, const QGauss<1>& gauss,
-                     double negligible) {
-  const HalvedRule angular(gauss);
-  const double negligible_mean_square =
-      negligible * negligible /
-      (2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius));
-  IntervalMap<FineLines> fine_lines;
-  IntervalMap<RadialRules> radial_rules;
-  double along_z = 0, along_r = 0; // squares
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const double length = high[1] - low[1];
-    const auto& lines = columns.on(low[1], high[1]);
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
+void MissedMoment::add_cell(const Point<2>& low, const Point<2>& high,
+                            const std::vector<ForceColumn>& lines, const RadialShapes& radial) {
+  const double length = high[1] - low[1];
+  const FineLines& finer = fine_lines.at(low[1], high[1], [&] {
+    FineLines finer = {std::pow(force.missed_along_z(low[1], high[1], angular), 2), {}};
+    if (finer.mean_square > negligible_mean_square)
+      finer.columns = force.columns(low[1], high[1], angular.fine);
+    return finer;
+  });
+  if (finer.columns.empty())
+    along_z += finer.mean_square * length * std::log(high[0] / low[0]);
+  else
+    along_z += length * missed_square(angular, lines, finer.columns, radial,
+                                      columns.at_radii(low[0], high[0], radial));
 
-    const FineLines& finer = fine_lines.at(low[1], high[1], [&] {
-      FineLines finer = {std::pow(force.missed_along_z(low[1], high[1], angular), 2), {}};
-      if (finer.mean_square > negligible_mean_square)
-        for (const auto& point : angular.fine.get_points())
-          finer.columns.push_back(force.column(low[1] + length * point[0]));
-      return finer;
-    });
-    if (finer.columns.empty())
-      along_z += finer.mean_square * length * std::log(high[0] / low[0]);
-    else
-      along_z += length * missed_square(angular, lines, finer.columns, radial,
-                                        columns.at_radii(low[0], high[0], radial));
+  RadialRules& rules = *radial_rules.at(low[0], high[0], [&] {
+    return std::make_unique<RadialRules>(low[0], high[0], shapes.gauss(low[0], high[0]), radial.r);
+  });
+  for (unsigned int p = 0; p < lines.size(); ++p)
+    along_r += angular.rule.weight(p) * length * rules.missed_square(lines[p]);
+}
 
-    RadialRules& rules = radial_rules.at(low[0], high[0], [&] {
-      return RadialRules(low[0], high[0], shapes.gauss(low[0], high[0]), radial.r);
-    });
-    for (unsigned int p = 0; p < gauss.size(); ++p)
-      along_r += gauss.weight(p) * length * rules.missed_square(lines[p]);
-  }
-  const MPI_Comm communicator = space.communicator();
+double MissedMoment::bound(MPI_Comm communicator) const {
   return std::sqrt(Utilities::MPI::sum(along_z, communicator)) +
          std::sqrt(Utilities::MPI::sum(along_r, communicator));
 }

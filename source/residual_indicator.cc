@@ -1,5 +1,6 @@
 #include "residual_indicator.h"
 
+#include "constant_size.h"
 #include "interpolation.h"
 #include "parameters.h"
 #include "ring_mesh.h"
@@ -100,9 +101,12 @@ private:
 };
 
 /// u on one cell by its nodal values, the radial index running fastest.
-template <unsigned int n>
+template <typename Size>
 struct CellField {
-  std::array<double, n * n> nodal;
+  explicit CellField(Size n) : n(n) {}
+
+  Size n;
+  std::array<double, most_nodes * most_nodes> nodal;
 
   double sum(const NodeValues& radial, const NodeValues& angular) const {
     double result = 0;
@@ -175,16 +179,15 @@ Lengths lengths_of(const Rectangle& box, const Scene& scene) {
 }
 
 /// At the points of a product of rules on a cell, z in rows and r in columns.
-template <unsigned int n>
-using ResidualValues = std::array<std::array<double, n>, n>;
+using ResidualValues = std::array<NodeValues, most_nodes>;
 
 /// The mean over a cell of the square of a residual, its values at the points of @p rule in each
 /// direction, with the length of its direction for what varies in one
 /// direction only, and the lesser length for all else.
-template <unsigned int n>
-double weighted_square(const ResidualValues<n>& residual, const QGauss<1>& rule,
+template <typename Size>
+double weighted_square(Size n, const ResidualValues& residual, const QGauss<1>& rule,
                        const Lengths& length) {
-  std::array<double, n> of_z = {}, of_r = {};
+  NodeValues of_z = {}, of_r = {};
   double mean = 0;
   for (unsigned int p = 0; p < n; ++p)
     for (unsigned int q = 0; q < n; ++q) {
@@ -203,14 +206,14 @@ double weighted_square(const ResidualValues<n>& residual, const QGauss<1>& rule,
   return sum;
 }
 
-/// With n nodes on each side of a cell, a number for the compiler: half of the time.
-template <unsigned int n>
-std::vector<double> indicate(const RingSpace& space, const Scene& scene,
+/// With @p n nodes on each side of a cell.
+template <typename Size>
+std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
                              const ContactProblem& problem, const ContactSolution& contact,
                              const FieldVector& field) {
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const auto& triangulation = space.dof_handler().get_triangulation();
-  constexpr unsigned int degree = n - 1;
+  const unsigned int degree = n - 1;
   const QGauss<1> gauss(n);
   const auto& points = gauss.get_points();
   const LineShapes inside(degree, mapped(points, 0, 1)), ends(degree, {0, 1});
@@ -219,7 +222,7 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   std::vector<types::global_dof_index> dofs(n * n);
   const auto gather = [&](const auto& cell) {
-    CellField<n> u;
+    CellField<Size> u(n);
     cell->get_dof_indices(dofs);
     for (unsigned int i = 0; i < n * n; ++i)
       u.nodal[i] = field(dofs[numbering[i]]);
@@ -235,12 +238,12 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
   std::vector<double> squares(triangulation.n_active_cells());
   std::vector<Lengths> lengths(triangulation.n_active_cells());
   ForceMoment moment(degree, gauss);
-  ResidualValues<n> residual;
+  ResidualValues residual;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial())
       continue;
     const Rectangle box = rectangle_of(cell);
-    const CellField<n> u = gather(cell);
+    const CellField<Size> u = gather(cell);
     const double h_r = box.height(), h_z = box.length(), per_r = 1 / h_r, per_z = 1 / h_z;
     const Lengths length = lengths[cell->active_cell_index()] = lengths_of(box, scene);
     NodeValues alpha_r; // at the points of the rule
@@ -251,7 +254,7 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
 
     if (scene.force)
       moment.reinit(scene, box);
-    std::array<double, n> radial_mode = {}, angular_mode = {};
+    NodeValues radial_mode = {}, angular_mode = {};
     for (unsigned int p = 0; p < n; ++p) {
       // Along the line z = const: u and its first two derivatives by z at the radial nodes
       NodeValues line, line_z, line_zz;
@@ -265,7 +268,7 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
         line_z[i] *= per_z;
         line_zz[i] *= per_z * per_z;
       }
-      const auto sum = [](const NodeValues& radial, const NodeValues& on_line) {
+      const auto sum = [n](const NodeValues& radial, const NodeValues& on_line) {
         double result = 0;
         for (unsigned int i = 0; i < n; ++i)
           result += radial[i] * on_line[i];
@@ -290,7 +293,7 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
       unbalanced += gauss.weight(q) * middle *
                     (radial_mode[q] * radial_mode[q] + alpha * angular_mode[q] * angular_mode[q]);
     squares[cell->active_cell_index()] =
-        h_r * h_z * (weighted_square<n>(residual, gauss, length) + exact_parts_weight * unbalanced);
+        h_r * h_z * (weighted_square(n, residual, gauss, length) + exact_parts_weight * unbalanced);
 
     for (const unsigned int f : cell->face_indices()) {
       if (f < 2 && cell->at_boundary(f))
@@ -354,7 +357,7 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
       continue;
     const SurfaceFace& face = space.surface_faces()[*space.surface_face(cell)];
     const Rectangle box = rectangle_of(cell);
-    const CellField<n> u = gather(cell);
+    const CellField<Size> u = gather(cell);
     NodeValues pressure = {};
     unsigned int n_active = 0, n_contact = 0;
     for (unsigned int k = 0; k < n; ++k)
@@ -400,9 +403,9 @@ std::vector<double> indicate(const RingSpace& space, const Scene& scene,
 std::vector<double> residual_indicator(const RingSpace& space, const Scene& scene,
                                        const ContactProblem& problem,
                                        const ContactSolution& contact, const FieldVector& field) {
-  return space.dof_handler().get_fe().degree == 1
-             ? indicate<2>(space, scene, problem, contact, field)
-             : indicate<3>(space, scene, problem, contact, field);
+  return with_constant_size(space.dof_handler().get_fe().degree + 1, [&](auto n) {
+    return indicate(n, space, scene, problem, contact, field);
+  });
 }
 
 } // namespace rollwave

@@ -115,6 +115,32 @@ TEST(Certificate, HoldsForRandomScenes) {
             << "1000 unknowns " << worst_on_fine_adaptive << std::endl;
 }
 
+TEST(Certificate, HoldsForHigherDegrees) {
+  for (const int degree : {3, 4, 8})
+    for (const int cycles : {0, 4}) {
+      const Parameters parameters =
+          with(paper_scenes()[0].parameters(),
+               {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
+                "Mesh/Angular cells=24", "Mesh/Adaptive cycles=" + std::to_string(cycles)});
+      const Scene scene = make_scene(parameters);
+      const auto exact = find_exact_solution(scene, parameters);
+      ASSERT_TRUE(exact);
+      const Solution solution = simulate(scene, parameters);
+      const CertifiedError& certified = *solution.result.certified;
+      EXPECT_LE(certified.lower_bound, exact->energy) << degree;
+      EXPECT_GE(certified.upper_bound, exact->energy) << degree;
+      const TrueErrors errors =
+          measure_true_errors(*solution.space, solution.displacement, solution.result,
+                              solution.certificate, exact_reference(*exact));
+      EXPECT_GE(certified.energy_norm, *errors.feasible_energy_norm) << degree;
+      EXPECT_LE(*errors.effectivity, degree < 8 ? 6 : 12) << degree << " " << cycles;
+      // The indicator has found the ends of contact: to halve all cells gains 2^(3/2).
+      if (cycles > 0) {
+        EXPECT_LT(errors.energy_norm, solution.result.cycles.front().indicated / 4) << degree;
+      }
+    }
+}
+
 // Contact that ends freely, that the zone cuts short on one side, and in a thin ring.
 TEST(EdgePressures, CarryTheContactForce) {
   const std::vector<std::vector<std::string>> scenes = {
@@ -150,7 +176,7 @@ TEST(EdgePressures, CarryTheContactForce) {
 
 // Without contact the flux G / r is the exact one, and D(tau) = min J = -pi f^2 int r u_1 dr.
 TEST(Certificate, IsAnEqualityWithoutContact) {
-  for (const char* degree : {"1", "2"})
+  for (const char* degree : {"1", "2", "3", "8"})
     for (const char* radius : {"0.99", "0.5", "0.0067", "1e-6"}) {
       const Parameters parameters = parameters_of(
           {std::string("Mesh/Degree=") + degree, "Mesh/Radial cells=4", "Mesh/Angular cells=7",
@@ -314,7 +340,7 @@ TEST(Certificate, OfAnExactSolutionIsRoundOff) {
 TEST(Certificate, OfFullContactEnclosesTheExactEnergy) {
   // J = -b phi lambda pi = pi phi^2 / ln(b/a)
   const double phi = -0.1, energy = PI * phi * phi / std::log(2.);
-  for (const int degree : {1, 2}) {
+  for (const int degree : {1, 2, 3, 8}) {
     const Parameters parameters =
         parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=3",
                        "Mesh/Angular cells=24", "Mesh/Adaptive cycles=3"});

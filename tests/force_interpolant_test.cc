@@ -23,11 +23,13 @@ constexpr double a = 0.5, b = 1;
 
 /// A force of the scene of figure 4 on a uniform mesh.
 struct Force {
-  Force(const std::string& expression, unsigned int radial_cells, unsigned int angular_cells)
-      : parameters(with(paper_scenes()[0].parameters(),
-                        {"Cylinder/Radial force=" + expression, "Mesh/Degree=1",
-                         "Mesh/Radial cells=" + std::to_string(radial_cells),
-                         "Mesh/Angular cells=" + std::to_string(angular_cells)})),
+  Force(const std::string& expression, unsigned int radial_cells, unsigned int angular_cells,
+        unsigned int degree = 1)
+      : parameters(
+            with(paper_scenes()[0].parameters(),
+                 {"Cylinder/Radial force=" + expression, "Mesh/Degree=" + std::to_string(degree),
+                  "Mesh/Radial cells=" + std::to_string(radial_cells),
+                  "Mesh/Angular cells=" + std::to_string(angular_cells)})),
         scene(make_scene(parameters)), mesh(scene, parameters), interpolant(mesh.space, scene) {}
 
   double integral(double r, double z) const {
@@ -200,15 +202,18 @@ TEST(ForceInterpolant, BoundsWhatARuleMissesAlongZ) {
   EXPECT_GT(n_bounded, 16u);
 }
 
-TEST(ForceInterpolant, StopsBetweenNeighbouringNumbers) {
-  // Room for more panels than a jump on a straight line can use.
-  const Force force("if(z<2,1,-1)", 8, 4000);
-  EXPECT_LT(force.interpolant.error(), 1e-5);
-  for (const double z : {1.5, std::nextafter(2., 1.), 2., std::nextafter(2., 3.), 2.5})
-    for (const double r : {a, 0.6, 0.9999})
-      EXPECT_LE(std::abs(force.integral(r, z)), 3 * (b * b - r * r) / 2) << z;
-  EXPECT_NEAR(force.integral(0.6, 1.999999), 0.32, 1e-12);
-  EXPECT_NEAR(force.integral(0.6, 2.000001), -0.32, 1e-12);
+TEST(ForceInterpolant, StopsAtANegligibleJumpOrBetweenNeighbouringNumbers) {
+  // Room for more panels than a jump on a straight line can use; with degree 8 nothing is
+  // negligible.
+  for (const unsigned int degree : {1, 8}) {
+    const Force force("if(z<2,1,-1)", 8 / degree, 4000 / degree, degree);
+    EXPECT_LT(force.interpolant.error(), degree == 1 ? 1e-5 : 1e-8);
+    for (const double z : {1.5, std::nextafter(2., 1.), 2., std::nextafter(2., 3.), 2.5})
+      for (const double r : {a, 0.6, 0.9999})
+        EXPECT_LE(std::abs(force.integral(r, z)), 3 * (b * b - r * r) / 2) << z;
+    EXPECT_NEAR(force.integral(0.6, 1.999999), 0.32, 1e-12);
+    EXPECT_NEAR(force.integral(0.6, 2.000001), -0.32, 1e-12);
+  }
 }
 
 TEST(ForceInterpolant, SeesWhatTheMeshSees) {
