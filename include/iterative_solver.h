@@ -50,6 +50,7 @@ private:
   MultigridSolver system;
   dealii::IndexSet contact_dofs;
   dealii::IndexSet pinned_dofs;
+  dealii::IndexSet multigrid_dofs; ///< those that the preconditioner knows as pinned
 
   /// An entry of K in the row or column of a contact node.
   struct Coupling {

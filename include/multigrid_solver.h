@@ -28,8 +28,11 @@ public:
       dealii::types::global_dof_index row,
       const std::function<void(dealii::types::global_dof_index column, double value)>& visit) const;
 
-  /// The matrix, whose entries may be changed; the preconditioner is made anew when it is needed.
-  dealii::TrilinosWrappers::SparseMatrix& change_matrix();
+  /// The matrix, whose entries may be changed. The preconditioner stays that of the entries before.
+  dealii::TrilinosWrappers::SparseMatrix& change_matrix() { return stiffness; }
+
+  /// The next one is that of the matrix as it is when it is needed.
+  void drop_preconditioner() { preconditioner.reset(); }
 
   /// What residuals are compared with, which may depend on the solution.
   using Scale = std::function<double(const FieldVector& u)>;
@@ -50,7 +53,7 @@ private:
   MpiSession mpi;
   dealii::TrilinosWrappers::SparseMatrix stiffness;
   double threshold = 0; ///< of couplings that are strong for the preconditioner
-  std::optional<AlgebraicMultigrid> preconditioner; ///< of the matrix
+  std::optional<AlgebraicMultigrid> preconditioner; ///< of the matrix, or nearly
 };
 
 } // namespace rollwave

@@ -14,7 +14,7 @@ using namespace dealii;
 
 IterativeSolver::IterativeSolver(const RingSpace& space)
     : space(space), system(space), contact_dofs(space.dof_handler().n_dofs()),
-      pinned_dofs(contact_dofs), field(space.make_field()) {
+      pinned_dofs(contact_dofs), multigrid_dofs(contact_dofs), field(space.make_field()) {
   for (const SurfaceNode& node : space.contact_nodes())
     contact_dofs.add_index(node.dof);
   contact_dofs.compress();
@@ -32,6 +32,7 @@ void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVecto
       scene, space.constraints(),
       [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); }, work);
   pinned_dofs.clear();
+  multigrid_dofs.clear();
   find_couplings();
   ++work.stiffness_assemblies;
   angular_velocity = scene.angular_velocity;
@@ -74,6 +75,15 @@ void IterativeSolver::pin(const std::vector<bool>& pinned) {
   if (dofs == pinned_dofs)
     return;
   pinned_dofs = dofs;
+  // Each node by which the preconditioner is behind costs one or two iterations, a new
+  // preconditioner about twenty.
+  constexpr unsigned int most_behind = 2;
+  const auto n_behind =
+      dofs.n_elements() + multigrid_dofs.n_elements() - 2 * (dofs & multigrid_dofs).n_elements();
+  if (n_behind > most_behind) {
+    system.drop_preconditioner();
+    multigrid_dofs = dofs;
+  }
   auto& matrix = system.change_matrix();
   for (const auto& [row, column, value] : couplings)
     matrix.set(row, column, row == column || !(is_pinned(row) || is_pinned(column)) ? value : 0.);

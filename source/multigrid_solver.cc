@@ -76,11 +76,6 @@ void MultigridSolver::visit_row(
     visit(matrix.ColMap().GID(local_columns[k]), values[k]);
 }
 
-TrilinosWrappers::SparseMatrix& MultigridSolver::change_matrix() {
-  preconditioner.reset();
-  return stiffness;
-}
-
 FieldVector MultigridSolver::solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) {
   constexpr double accuracy = 1e-11;
   FieldVector u = space.make_field(), sum = rhs;
