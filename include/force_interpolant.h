@@ -53,9 +53,12 @@ public:
   std::vector<ForceColumn> columns(double begin, double end,
                                    const dealii::Quadrature<1>& rule) const;
 
+  /// Where within ]begin, end[ panels end, in order: G is smooth in between.
+  std::vector<double> panel_ends(double begin, double end) const;
+
   /// A bound, for any radius, of the root mean square over z in [begin, end], at the points of the
   /// fine rule, of G less the polynomial that equals it at the points of the rule, from the
-  /// coefficients. Infinite where panels end in between.
+  /// coefficients. No panel may end in between.
   double missed_along_z(double begin, double end, const HalvedRule& rules) const;
 
   /// Whether f_0 is f itself.

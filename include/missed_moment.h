@@ -24,9 +24,10 @@ struct Scene;
  * G_h does not fit together on cells of different lengths, and so belongs to no flux in
  * equilibrium.
  *
- * What is missed along z and what is missed along r are each taken at the points of the rule on
- * both halves of its intervals, and added. In their place are bounds by the coefficients of f_0
- * along r where a cell has but one polynomial, and along z where they add up to less than
+ * What is missed along z, where G may jump, is integrated exactly between the ends of panels, and
+ * what is missed along r is taken at the points of the rule on both halves of its intervals. Both
+ * are added. In their place are bounds by the coefficients of f_0 along r where a cell has but one
+ * polynomial, and along z where no panel ends and they add up to less than
  * ForceInterpolant::negligible().
  */
 class MissedMoment {
@@ -48,9 +49,17 @@ private:
 
   /// Lines at the finer points of an angular interval, if they have to be looked at.
   struct FineLines {
-    double mean_square; ///< of what is missed of G, for any radius
+    double mean_square = 0; ///< of what is missed of G, for any radius, if there are no lines
     std::vector<ForceColumn> columns;
+    std::vector<double> weights;
+    dealii::FullMatrix<double> from_rule; ///< interpolation from the points of the rule
+
+    /// The mean over z of the integral of w^2 / r dr of what is missed of G on a cell along z.
+    double missed_square(const std::vector<ForceColumn>& lines, const RadialShapes& radial,
+                         ForceAtRadii& at_radii) const;
   };
+
+  FineLines find_fine_lines(double begin, double end) const;
 
   const ForceInterpolant& force;
   RadialShapesOfMesh& shapes;

@@ -315,6 +315,25 @@ ForceColumn ForceInterpolant::column_on(const std::vector<unsigned int>& line, d
   return pieces;
 }
 
+std::vector<double> ForceInterpolant::panel_ends(double begin, double end) const {
+  std::vector<double> ends;
+  const double period = panels[0].high[1];
+  double turn = std::floor(begin / period) * period;
+  for (double z = begin - turn;;) {
+    double next = period;
+    for (const unsigned int i : panels_on(z, 0))
+      next = std::min(next, panels[i].high[1]);
+    if (turn + next >= end)
+      return ends;
+    ends.push_back(turn + next);
+    z = next;
+    if (next == period) {
+      turn += period;
+      z = 0;
+    }
+  }
+}
+
 double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRule& rules) const {
   const auto angles = [&](const Quadrature<1>& rule) {
     std::vector<double> z;
@@ -324,9 +343,6 @@ double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRu
   };
   const std::vector<double> of_rule = angles(rules.rule), of_fine = angles(rules.fine);
   const std::vector<unsigned int> line = panels_on(of_fine.front(), 0);
-  if (of_fine.front() > of_fine.back() || line != panels_on(of_fine.back(), 0))
-    return std::numeric_limits<double>::infinity();
-
   const auto missed_norms_on = [&](double low, double high) {
     const auto values = [&](const std::vector<double>& z) {
       std::vector<ForcePiece::Coefficients> all;

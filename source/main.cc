@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
+#include <sstream>
 
 using namespace rollwave;
 
@@ -78,9 +79,13 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
   case CommandLine::Action::version:
     out << version_text() << '\n';
     break;
-  case CommandLine::Action::parameters:
-    print_parameters(out, settings_of(line));
+  case CommandLine::Action::parameters: {
+    // deal.II throws where it cannot write.
+    std::ostringstream text;
+    print_parameters(text, settings_of(line));
+    out << text.str();
     break;
+  }
   case CommandLine::Action::run:
     run(line, out, processes);
   }

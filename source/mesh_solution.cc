@@ -1,6 +1,7 @@
 #include "mesh_solution.h"
 
 #include "assembly.h"
+#include "errors.h"
 #include "scene.h"
 
 #include <deal.II/grid/tria.h>
@@ -86,6 +87,13 @@ std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVe
   return points;
 }
 
+/// @throws NotSolved where squares of such numbers overflow or there is none
+void require_finite(double squared, const std::string& what) {
+  if (!std::isfinite(squared))
+    throw NotSolved(what + " is beyond what numbers can hold: change Cylinder/Radial force or the "
+                           "radii, which must not be too close to each other either");
+}
+
 } // namespace
 
 MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
@@ -100,6 +108,8 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     system.force = force;
     ++work.load_assemblies;
   }
+  if (system.load)
+    require_finite(system.load->norm_sqr(), "the load");
   auto& solver = system.stiffness.solver;
   const std::string& remark = system.stiffness.remark;
   if (solver)
@@ -122,6 +132,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
   const double norm_squared = solution.displacement * stiffness_times_u;
   const double work_of_force = system.load ? solution.displacement * *system.load : 0.;
   solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  require_finite(norm_squared + std::abs(work_of_force), "the energy");
   solution.residuals = measure_residuals(space, solution.problem, solution.contact,
                                          std::move(stiffness_times_u), system.load, round_off);
   return solution;

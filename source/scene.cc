@@ -58,6 +58,10 @@ void check_cylinder(const Parameters& parameters) {
     refuse("Outer radius",
            text("it must be greater than the inner radius ", cylinder.inner_radius));
 
+  constexpr double least_ratio = 1e-150; // whose square can be held
+  if (cylinder.inner_radius < least_ratio * cylinder.outer_radius)
+    refuse("Inner radius", text("it must be at least ", least_ratio, " of the outer radius"));
+
   // The user's 1/b has been rounded, at most by the last digits of a decimal number.
   const double critical = 1 / cylinder.outer_radius;
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))

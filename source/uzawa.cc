@@ -113,10 +113,10 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
   unsigned int steps_without_progress = 0;
   while (solution.history.size() < settings.most_steps) {
     ContactStep step = {};
-    double correction_squared = 0;
+    double violation_squared = 0;
     for (unsigned int i = 0; i < n; ++i) {
       const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
-      correction_squared += (next - p(i)) * (next - p(i));
+      violation_squared += std::pow((next - p(i)) / rho, 2);
       p(i) = next;
       force(i) = -problem.weight(i) * next;
       step.active += next < 0;
@@ -125,12 +125,12 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
       step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
     }
     Vector<double> change = displacement;
-    if (correction_squared > 0)
+    if (violation_squared > 0)
       residual = solver.solve(none, solution.state, accuracy);
     change -= displacement;
 
     const double size = displacement.l2_norm();
-    const double violation = std::sqrt(correction_squared) / rho;
+    const double violation = std::sqrt(violation_squared);
     const double measured = settings.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);

@@ -226,6 +226,30 @@ TEST(Certificate, IsSharpInThinRings) {
     }
 }
 
+// Contact within one cell, which each cycle halves: half the length of what penetrates, and of the
+// road's gap a quarter, which makes 2^(-3/2) of the bound.
+TEST(Certificate, HoldsInTheThinnestRingsAtTheCriticalSpeed) {
+  for (const double thickness : {1e-8, 1e-9})
+    for (const int degree : {1, 2, 4}) {
+      std::vector<CertifiedError> certified;
+      for (int cycles = 0; cycles <= 5; ++cycles) {
+        const Parameters parameters =
+            with(paper_scenes()[0].parameters(),
+                 {"Cylinder/Inner radius=" + text(1 - thickness), "Cylinder/Angular velocity=1",
+                  "Road/Distance=" + text(1 - 0.3 * thickness),
+                  "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4",
+                  "Mesh/Angular cells=40", "Mesh/Adaptive cycles=" + std::to_string(cycles)});
+        certified.push_back(*simulate(make_scene(parameters), parameters).result.certified);
+      }
+      for (unsigned int k = 0; k + 1 < certified.size(); ++k) {
+        EXPECT_LE(certified[k].lower_bound, certified.back().upper_bound) << thickness;
+        // Round-off makes the potential worse than the best by what the second number allows for.
+        EXPECT_NEAR(std::log2(certified[k].energy_norm / certified[k + 1].energy_norm), 1.5, 0.8)
+            << thickness << " " << degree << " " << k;
+      }
+    }
+}
+
 TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
   for (const double omega : {0., 0.6, 1.})
     for (const bool is_cut : {false, true}) {
@@ -275,6 +299,27 @@ TEST(Certificate, HoldsForForcesWithKinks) {
         upper = std::min(upper, certified.upper_bound);
         EXPECT_LT(lower, upper) << force << " after " << times << " of " << key;
       }
+  }
+}
+
+// A strip of a cell, too narrow for the points of load and rules, in which the force is another.
+TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
+  const double cell = 2 * PI / 48, line = PI / 2 + 5 * cell;
+  const auto certify_jump = [](double at, int degree, int angular_cells) {
+    const Parameters parameters =
+        with(paper_scenes()[0].parameters(),
+             {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4", "Road/Distance=1.3",
+              "Mesh/Angular cells=" + std::to_string(angular_cells),
+              "Cylinder/Radial force=if(z<" + text(at) + ",1,0)"});
+    return *simulate(make_scene(parameters), parameters).result.certified;
+  };
+  for (const double share : {-0.01, 0.01}) {
+    const double at = line + share * cell;
+    const CertifiedError coarse = certify_jump(at, 4, 48);
+    const CertifiedError fine = certify_jump(at, 2, 4800); // on which the jump is a line
+    EXPECT_LE(coarse.lower_bound, fine.upper_bound) << share;
+    EXPECT_GE(coarse.upper_bound, fine.lower_bound) << share;
+    EXPECT_LT(fine.upper_bound - fine.lower_bound, 0.1 * (coarse.upper_bound - coarse.lower_bound));
   }
 }
 

@@ -251,7 +251,9 @@ TEST_F(StudyOnProcesses, EndTogetherWhenInterrupted) {
   std::ofstream(directory / "rank.sh")
       << "$rollwave " << scene
       << " --set 'Study/Processes per scene=1' --set 'Mesh/Radial cells=20' --set "
-      << "'Study/Vary=Mesh/Angular cells = " << cells << "' &\nsleep 4\nkill -TERM $!\nwait $!\n";
+      << "'Study/Vary=Mesh/Angular cells = " << cells << "' &\n"
+      << "until grep -q ^4 '" << (directory / "out" / "study.csv").string()
+      << "' 2>/dev/null; do sleep 0.1; done\nkill -TERM $!\nwait $!\n";
   const Outcome outcome =
       shell("timeout 60 " + on_processes(4) + "sh '" + (directory / "rank.sh").string() + "'");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
