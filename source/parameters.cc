@@ -92,7 +92,7 @@ void declare(Declarations& keys, Parameters& p) {
 
   keys.enter("Cylinder");
   keys.add_number("Inner radius", p.cylinder.inner_radius, tiny, huge,
-                  "Radius a of the rigid hub: a length, greater than 0.");
+                  "Radius a of the rigid hub: a length, greater than 0, at least 1e-150 of b.");
   // Energies have the square of the unit of length.
   keys.add_number("Outer radius", p.cylinder.outer_radius, 1e-151, 1e151,
                   "Radius b of the undeformed cylinder: a length, greater than a, from 1e-151 to "

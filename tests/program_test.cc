@@ -106,6 +106,7 @@ TEST_F(Program, PrintsHelpVersionAndParameters) {
   // The parameters it prints are a file that it accepts.
   const std::string defaults = "'" + (directory / "defaults.prm").string() + "'";
   ASSERT_EQ(shell("$rollwave --parameters > " + defaults).exit_code, 0);
+  EXPECT_EQ(shell("$rollwave --parameters > /dev/full").exit_code, 3);
   EXPECT_EQ(shell("$rollwave " + defaults + " --set Output/Files= --output '" +
                   (directory / "out").string() + "'")
                 .exit_code,
