@@ -31,13 +31,14 @@ struct MeshSystem;
  * ForceInterpolant f_0, and (f_0, v) = int G v_r dr dz. With (f - f_0, w) <= epsilon |w| for all w,
  * |w|^2 = a(w, w), a(v - u, v - u)^(1/2) <= epsilon + (epsilon^2 + eta^2)^(1/2), and the bounds of
  * J open accordingly. What Gauss' rules miss of G is added to eta, and opens the bounds of J too:
- * missed_moment(). Where nothing better is known of w there is Friedrichs' inequality
+ * MissedMoment. Where nothing better is known of w there is Friedrichs' inequality
  *
  *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   ||w||^2 = int r w^2 dr dz.
  *
  * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
- * road with degree + 6 points. The bound assumes that these resolve phi, and that the finer points
- * on which ForceInterpolant and missed_moment() are judged see what they miss.
+ * road with degree + 6 points. The bound assumes that these resolve phi; of a force that is no
+ * number, that the points of ForceInterpolant's panels see what it does there, and those of
+ * MissedMoment along r what the rules miss.
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds

@@ -47,7 +47,7 @@ public:
 private:
   class RadialRules;
 
-  /// Lines at the finer points of an angular interval, if they have to be looked at.
+  /// Lines between the ends of panels in an angular interval, if they have to be looked at.
   struct FineLines {
     double mean_square = 0; ///< of what is missed of G, for any radius, if there are no lines
     std::vector<ForceColumn> columns;
