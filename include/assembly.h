@@ -28,13 +28,21 @@ using AddCellMatrix = std::function<void(const std::vector<dealii::types::global
  */
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add);
 
+/// What a force does to a mesh.
+struct Load {
+  FieldVector vector; ///< f_i = int r f phi_i dr dz with the constraints applied
+
+  /// r f at the points of the rule on one own active cell after another, the radial index running
+  /// fastest; none when the force is a number
+  std::vector<double> moments;
+};
+
 /**
- * The load vector f_i = int r f phi_i dr dz with the constraints applied, by Gauss' rule with
- * degree + 1 points in each direction; the scene must have a force.
+ * The load by Gauss' rule with degree + 1 points in each direction; the scene must have a force.
  *
  * @throws BadInput where f is not finite.
  */
-FieldVector assemble_load(const RingSpace& space, const Scene& scene);
+Load assemble_load(const RingSpace& space, const Scene& scene);
 
 } // namespace rollwave
 

@@ -18,7 +18,9 @@ namespace rollwave {
 /// What the certificates of scenes on one mesh with one speed and one force share.
 struct DualParts {
   /// @param force the text of the scene's force, empty without force
-  DualParts(const RingSpace& space, const Scene& scene, const std::string& force);
+  /// @param moments those of its Load
+  DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
+            const std::vector<double>& moments);
 
   /// Whether they are those of a scene with this force.
   bool belong_to(const Scene& scene, const std::string& force) const;
@@ -45,6 +47,7 @@ struct MeshSystem {
   std::unique_ptr<DualPotential> potential;
   std::unique_ptr<DualParts> dual;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
+  std::vector<double> moments;     ///< of the same Load
   std::string force;               ///< the text of the force that the load belongs to
   bool is_kept = true; ///< whether another scene may come; else solvers go when they have solved
 };

@@ -69,14 +69,14 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
   }
 }
 
-FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
+Load assemble_load(const RingSpace& space, const Scene& scene) {
   const auto& element = space.dof_handler().get_fe();
   const QGauss<2> gauss(element.degree + 1);
   FEValues<2> values(space.mapping(), element, gauss,
                      update_values | update_quadrature_points | update_JxW_values);
   Vector<double> cell_vector(element.n_dofs_per_cell());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  FieldVector load = space.make_field();
+  Load load = {space.make_field(), {}};
   std::string refusal;
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -94,16 +94,18 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
           refusal = force_not_finite_at(scene, r, z);
         continue;
       }
+      if (!scene.uniform_force)
+        load.moments.push_back(r * f);
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
     }
     cell->get_dof_indices(dofs);
-    space.constraints().distribute_local_to_global(cell_vector, dofs, load);
+    space.constraints().distribute_local_to_global(cell_vector, dofs, load.vector);
   }
   refusal = first_text(space.communicator(), refusal);
   if (!refusal.empty())
     throw BadInput(refusal);
-  load.compress(VectorOperation::add);
+  load.vector.compress(VectorOperation::add);
   return load;
 }
 

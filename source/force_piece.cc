@@ -26,7 +26,7 @@ const Factors factors;
 /// P_k(2 t - 1)
 std::array<double, n + 1> classical_legendre(double t) {
   const double x = 2 * t - 1;
-  std::array<double, n + 1> values = {1, x};
+  std::array<double, n + 1> values = {{1, x}};
   for (unsigned int k = 1; k < n; ++k)
     values[k + 1] = factors.steps[k] * x * values[k] - (factors.steps[k] - 1) * values[k - 1];
   return values;

@@ -104,7 +104,9 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     system.load.reset();
   else if (!system.load || system.force != force) {
     const Work::Phase phase(work, "assembly");
-    system.load = assemble_load(space, scene);
+    Load load = assemble_load(space, scene);
+    system.load = std::move(load.vector);
+    system.moments = std::move(load.moments);
     system.force = force;
     ++work.load_assemblies;
   }

@@ -2,11 +2,13 @@
 
 namespace rollwave {
 
-DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force)
+DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
+                     const std::vector<double>& moments)
     : angular_velocity(scene.angular_velocity), force(force),
       shapes(scene, space.dof_handler().get_fe().degree),
-      interpolant(scene.force ? std::optional<ForceInterpolant>(std::in_place, space, scene)
-                              : std::nullopt),
+      interpolant(scene.force
+                      ? std::optional<ForceInterpolant>(std::in_place, space, scene, moments)
+                      : std::nullopt),
       gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
   if (interpolant)
     columns.emplace(*interpolant, gauss);

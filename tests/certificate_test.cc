@@ -323,6 +323,26 @@ TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
   }
 }
 
+// Three cells of the coarser mesh, where the points of a panel lie on either side.
+TEST(Certificate, SeesAStripOfAFewCells) {
+  const double cell = 2 * PI / 480;
+  const auto certify_strip = [&](double begin, int radial_cells, int angular_cells) {
+    const Parameters parameters =
+        with(paper_scenes()[0].parameters(),
+             {"Mesh/Degree=2", "Mesh/Radial cells=" + std::to_string(radial_cells),
+              "Road/Distance=1.3", "Mesh/Angular cells=" + std::to_string(angular_cells),
+              "Cylinder/Radial force=1+if(abs(z-" + text(begin + 1.5 * cell) + ")<" +
+                  text(1.5 * cell) + ",5,0)"});
+    return *simulate(make_scene(parameters), parameters).result.certified;
+  };
+  for (const int line : {224, 226, 228}) {
+    const CertifiedError coarse = certify_strip(PI / 2 + line * cell, 20, 480),
+                         fine = certify_strip(PI / 2 + line * cell, 40, 1440);
+    EXPECT_LE(coarse.lower_bound, fine.upper_bound) << line;
+    EXPECT_GE(coarse.upper_bound, fine.lower_bound) << line;
+  }
+}
+
 TEST(Certificate, IsTheSameForANumberAndAnExpressionOfItsValue) {
   for (const int degree : {1, 2}) {
     const auto certify_force = [&](const std::string& force) {

@@ -126,7 +126,7 @@ TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
 struct Prepared {
   explicit Prepared(const Parameters& parameters)
       : scene(make_scene(parameters)), ring(scene, parameters),
-        load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
+        load(scene.force ? std::optional(assemble_load(ring.space, scene).vector) : std::nullopt),
         solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
     solver.turn_to(scene, load, work);
   }

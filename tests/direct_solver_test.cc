@@ -169,7 +169,7 @@ protected:
             parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=2",
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
-        load(assemble_load(ring.space, scene)), solver(ring.space) {
+        load(assemble_load(ring.space, scene).vector), solver(ring.space) {
     solver.turn_to(scene, load, work);
   }
 

@@ -1,4 +1,5 @@
 // f_0 in place of the force, and its integral G(r, z) = int_r^b rho f_0 drho.
+#include "assembly.h"
 #include "errors.h"
 #include "floating_point.h"
 #include "force_columns.h"
@@ -30,7 +31,8 @@ struct Force {
                  {"Cylinder/Radial force=" + expression, "Mesh/Degree=" + std::to_string(degree),
                   "Mesh/Radial cells=" + std::to_string(radial_cells),
                   "Mesh/Angular cells=" + std::to_string(angular_cells)})),
-        scene(make_scene(parameters)), mesh(scene, parameters), interpolant(mesh.space, scene) {}
+        scene(make_scene(parameters)), mesh(scene, parameters),
+        interpolant(mesh.space, scene, assemble_load(mesh.space, scene).moments) {}
 
   double integral(double r, double z) const {
     std::vector<double> values;
@@ -245,6 +247,41 @@ TEST(ForceInterpolant, SeesWhatTheMeshSees) {
   for (const double z : {4.69, 4.697, 4.7, 4.702})
     EXPECT_NEAR(force.integral(a, z),
                 std::exp(-std::pow((z - 4.7) / 0.003, 2)) * (b * b - a * a) / 2, 1e-6);
+}
+
+TEST(ForceInterpolant, SeesWhatTheLoadSeesBetweenThePointsOfAPanel) {
+  // Half a dozen cells along z, or a spot on some, in forces that panels resolve otherwise.
+  for (const double middle : {4.31, 4.43, 4.52, 4.6}) {
+    const std::string at = std::to_string(middle);
+    const Force strip("1+if(abs(z-" + at + ")<0.04,5,0)", 20, 480, 2);
+    for (const double z : {middle - 0.03, middle, middle + 0.03})
+      EXPECT_NEAR(strip.integral(a, z), 3 * (b * b - a * a), 1e-6) << z;
+    EXPECT_NEAR(strip.integral(a, middle + 0.05), (b * b - a * a) / 2, 1e-6);
+    const Force spot("if((r-0.9)^2+(z-" + at + ")^2<0.0016,1,0)+floor(8*r)", 20, 480, 2);
+    const auto steps = [](double r) {
+      double sum = 0;
+      for (const double step : {0.625, 0.75, 0.875, 1.})
+        sum += std::floor(8 * (step - 0.01)) *
+               std::max(0., std::pow(step, 2) - std::pow(std::max(r, step - 0.125), 2)) / 2;
+      return sum;
+    };
+    EXPECT_NEAR(spot.integral(a, middle + 0.05), steps(a), 1e-6);
+    EXPECT_NEAR(spot.integral(a, middle), steps(a) + 0.9 * 0.08, 4e-3);
+  }
+}
+
+TEST(ForceInterpolant, SeesWhatBeginsBesideAnEndOfAPanel) {
+  // Where panels end: at half a turn, at half the ring's height. With degree 8 nothing is
+  // negligible.
+  const Force in_z("if(z<3.1416,1,0)", 8, 96, 8);
+  EXPECT_NEAR(in_z.integral(a, 3.141593), (b * b - a * a) / 2, 1e-12);
+  EXPECT_NEAR(in_z.integral(a, 3.141607), 0, 1e-12);
+  const Force in_r("if(r<0.75001,1,0)", 8, 96, 8);
+  EXPECT_NEAR(in_r.integral(0.75, 2), (0.75001 * 0.75001 - 0.75 * 0.75) / 2, 5e-7);
+  // Exactly there nothing has to be halved.
+  EXPECT_LT(Force("if(z<pi,1,0)", 8, 96, 8).interpolant.error(), 1e-13);
+  EXPECT_LT(Force("if(r<0.75,1,0)", 8, 96, 8).interpolant.error(), 1e-13);
+  EXPECT_EQ(Force("if(z<pi,1,0)", 8, 96, 8).interpolant.panel_ends(3.1, 3.2).size(), 1u);
 }
 
 TEST(ForceInterpolant, RefusesForcesThatAreNotFinite) {

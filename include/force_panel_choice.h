@@ -1,0 +1,40 @@
+#ifndef ROLLWAVE_FORCE_PANEL_CHOICE_H
+#define ROLLWAVE_FORCE_PANEL_CHOICE_H
+
+#include "force_panels.h"
+#include "ring_space.h"
+
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/**
+ * Panels for the force of a scene, the same on all processes.
+ *
+ * Panels are halved until each has a small share of the mesh's cells, then the worst first until
+ * they leave out 1e-5 of what is negligible, as many as the mesh pays for; in the direction in
+ * which f is rougher. They are not halved either where even the mean of f would leave out a
+ * negligible part. There f_0 becomes that mean, and m_0 the root mean square of m, unless the
+ * panel is resolved.
+ *
+ * Last, m is taken at the points of the load. Where its mean square is more than there than four
+ * times what the panel's points say, f has something between those: such panels are quartered, and
+ * looked at again. What a panel misses is what its points or those of the load say, whichever is
+ * more.
+ *
+ * @param moments r f at the points of the load (Load)
+ * @throws BadInput where f is not finite
+ */
+ForcePanels choose_force_panels(const RingSpace& space, const Scene& scene,
+                                const std::vector<double>& moments);
+
+/// N^(-p/2) C ||f|| / 100, N unknowns of degree p, C that of Friedrichs' inequality: an error of
+/// the load that is small beside the mesh's own. The panels have to be judged.
+double negligible_error_of_force(const RingSpace& space, const Scene& scene,
+                                 const ForcePanels& panels);
+
+} // namespace rollwave
+
+#endif

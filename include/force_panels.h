@@ -1,0 +1,50 @@
+#ifndef ROLLWAVE_FORCE_PANELS_H
+#define ROLLWAVE_FORCE_PANELS_H
+
+#include "force_panel.h"
+
+#include <vector>
+
+namespace rollwave {
+
+/// The panels of a ring: itself, and halves of those that were halved, which follow their whole.
+/// The parts, which are those that were not, cover the ring.
+class ForcePanels {
+public:
+  explicit ForcePanels(const Scene& scene);
+
+  ForcePanel& operator[](unsigned int number) { return nodes[number].panel; }
+  const ForcePanel& operator[](unsigned int number) const { return nodes[number].panel; }
+  unsigned int size() const { return nodes.size(); }
+  bool is_part(unsigned int number) const { return nodes[number].first_half == 0; }
+
+  /// Adds the inner and the outer half of a part, in this order, and @returns the former's number.
+  unsigned int halve(const Scene& scene, unsigned int number, unsigned int direction);
+
+  /// The numbers of the parts on the line z in [0, 2 pi), beyond a radius, from the hub outwards.
+  std::vector<unsigned int> on(double z, double begin) const;
+
+  /// f_0 on the line z in [0, 2 pi), of which these are the parts.
+  ForceColumn column(const std::vector<unsigned int>& line, double z) const;
+
+  /// The angles in ]begin, end[ where parts end, in order.
+  std::vector<double> ends(double begin, double end) const;
+
+  /// C ||f||, a bound of (f, w) / |w|, if all parts are judged.
+  double friedrichs_norm(const Scene& scene) const;
+
+private:
+  struct Node {
+    ForcePanel panel;
+    unsigned int first_half = 0; ///< its number, the second follows; 0: none
+    unsigned int direction = 0;  ///< in which the panel was halved
+  };
+
+  void collect(unsigned int number, double z, double begin, std::vector<unsigned int>& line) const;
+
+  std::vector<Node> nodes;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,176 @@
+#include "force_panel_choice.h"
+
+#include "load_points.h"
+#include "scene.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+constexpr double round_off = 1e-13; ///< of f_0
+constexpr double smallest = 4e-15;  ///< panel, over its distance from the origin
+
+class Chooser {
+public:
+  Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments)
+      : panels(scene), space(space), scene(scene), moments(moments) {
+    halve_where_fine();
+    for (unsigned int i = 0; i < panels.size(); ++i)
+      if (panels.is_part(i))
+        add(i);
+    most_panels = panels.size() + 16 + space.n_unknowns() / 100;
+    negligible_squared = std::pow(negligible_error_of_force(space, scene, panels), 2) / most_panels;
+    allowed_squared = std::max(std::pow(round_off * panels.friedrichs_norm(scene), 2) / most_panels,
+                               1e-10 * negligible_squared);
+    do
+      halve_the_worst(panels.size() + 3 * (most_panels - panels.size()) / 4);
+    while (quarter_where_load_points_see_more());
+    halve_the_worst(most_panels);
+    look_at_load_points();
+  }
+
+  ForcePanels panels;
+
+private:
+  /// Numbers of panels, the one with the largest error first.
+  using Queue = std::priority_queue<std::pair<double, unsigned int>>;
+
+  /// Halves the panels that have more than their share of the cells.
+  void halve_where_fine();
+
+  /// @param most panels in the end
+  void halve_the_worst(unsigned int most);
+
+  /// @returns whether there were such panels.
+  bool quarter_where_load_points_see_more();
+
+  /// Panels miss what the points of the load say, if that is more.
+  /// @returns those on which these see what its own points do not, with the square of the bound.
+  Queue look_at_load_points();
+
+  bool is_divisible(const ForcePanel& panel, unsigned int direction) const {
+    return panel.high[direction] - panel.low[direction] >= smallest * panel.high[direction];
+  }
+
+  void add(unsigned int i) {
+    panels[i].judge(scene);
+    worst.push({panels[i].squared_alone(scene, panels[i].missed), i});
+  }
+
+  const RingSpace& space;
+  const Scene& scene;
+  const std::vector<double>& moments;
+  Queue worst;
+  unsigned int most_panels;
+  double negligible_squared, allowed_squared;
+};
+
+void Chooser::halve_where_fine() {
+  const auto& triangulation = space.dof_handler().get_triangulation();
+  std::vector<Point<2>> centers;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Point<2> center = cell->vertex(0) + (cell->vertex(3) - cell->vertex(0)) / 2;
+      const double period = center[1] < 2 * numbers::PI ? 0 : 2 * numbers::PI;
+      centers.emplace_back(center[0], center[1] - period);
+    }
+  const unsigned int n_cells = triangulation.n_global_active_cells();
+  const double most_cells = n_cells * std::max(1. / 32, 128. / space.n_unknowns());
+  struct Cells {
+    std::vector<Point<2>>::iterator begin, end; ///< of the own centers on a panel
+    unsigned int n_all;                         ///< on all processes
+  };
+  std::vector<Cells> cells = {{centers.begin(), centers.end(), n_cells}};
+  for (unsigned int i = 0; i < panels.size(); ++i) {
+    const Cells whole = cells[i];
+    if (whole.n_all <= most_cells)
+      continue;
+    unsigned int direction = panels[i].rougher_direction();
+    const Tensor<1, 2> size = panels[i].high - panels[i].low, all = panels[0].high - panels[0].low;
+    if (16 * size[direction] / all[direction] < size[1 - direction] / all[1 - direction])
+      direction = 1 - direction; // does not reach single cells along a jump
+    const double middle = panels[panels.halve(scene, i, direction)].high[direction];
+    const auto outer = std::partition(
+        whole.begin, whole.end, [&](const Point<2>& center) { return center[direction] < middle; });
+    const unsigned int n_inner =
+        Utilities::MPI::sum<unsigned int>(outer - whole.begin, triangulation.get_communicator());
+    cells.push_back({whole.begin, outer, n_inner});
+    cells.push_back({outer, whole.end, whole.n_all - n_inner});
+  }
+}
+
+void Chooser::halve_the_worst(unsigned int most) {
+  while (!worst.empty() && panels.size() < most) {
+    const auto [error_squared, i] = worst.top();
+    worst.pop();
+    const bool is_resolved = panels[i].is_resolved();
+    if (is_resolved && error_squared <= allowed_squared)
+      continue;
+    if (panels[i].squared_alone(scene, panels[i].beside_mean) <= negligible_squared) {
+      if (!is_resolved)
+        panels[i].flatten();
+      continue;
+    }
+    const unsigned int direction = panels[i].rougher_direction();
+    if (!is_divisible(panels[i], direction))
+      continue; // a jump between neighbouring numbers
+    const unsigned int first_half = panels.halve(scene, i, direction);
+    add(first_half);
+    add(first_half + 1);
+  }
+}
+
+Chooser::Queue Chooser::look_at_load_points() {
+  const auto at_load_points = missed_at_load_points(space, panels, moments);
+  Queue seen_badly;
+  for (unsigned int i = 0; i < panels.size(); ++i) {
+    const auto& [n_points, mean, mean_square] = at_load_points[i];
+    ForcePanel& panel = panels[i];
+    if (n_points == 0 || mean_square <= 4 * panel.mean_square())
+      continue;
+    panel.missed = panel.missed_if(scene, std::max(panel.missed.mean, std::abs(mean)), mean_square);
+    const double error_squared = panel.squared_alone(scene, panel.missed);
+    if (error_squared > negligible_squared && is_divisible(panel, 0) && is_divisible(panel, 1))
+      seen_badly.push({error_squared, i});
+  }
+  return seen_badly;
+}
+
+bool Chooser::quarter_where_load_points_see_more() {
+  const unsigned int n_before = panels.size();
+  for (Queue seen_badly = look_at_load_points(); !seen_badly.empty(); seen_badly.pop()) {
+    if (panels.size() + 6 > most_panels)
+      break;
+    const unsigned int first_half = panels.halve(scene, seen_badly.top().second, 0);
+    for (const unsigned int half : {first_half, first_half + 1}) {
+      const unsigned int first_quarter = panels.halve(scene, half, 1);
+      add(first_quarter);
+      add(first_quarter + 1);
+    }
+  }
+  return panels.size() > n_before;
+}
+
+} // namespace
+
+double negligible_error_of_force(const RingSpace& space, const Scene& scene,
+                                 const ForcePanels& panels) {
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  return 0.01 * std::pow(space.n_unknowns(), -0.5 * degree) * panels.friedrichs_norm(scene);
+}
+
+ForcePanels choose_force_panels(const RingSpace& space, const Scene& scene,
+                                const std::vector<double>& moments) {
+  return std::move(Chooser(space, scene, moments).panels);
+}
+
+} // namespace rollwave

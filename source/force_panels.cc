@@ -1,0 +1,105 @@
+#include "force_panels.h"
+
+#include "scene.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace rollwave {
+
+using namespace dealii;
+
+ForcePanels::ForcePanels(const Scene& scene) {
+  nodes.push_back({ForcePanel(scene, Point<2>(scene.inner_radius, 0),
+                              Point<2>(scene.outer_radius, 2 * numbers::PI))});
+}
+
+unsigned int ForcePanels::halve(const Scene& scene, unsigned int number, unsigned int direction) {
+  const ForcePanel& whole = nodes[number].panel;
+  Point<2> low = whole.low, high = whole.high;
+  low[direction] = high[direction] = (low[direction] + high[direction]) / 2;
+  const ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
+  const unsigned int first_half = nodes.size();
+  nodes[number].first_half = first_half;
+  nodes[number].direction = direction;
+  nodes.push_back({inner});
+  nodes.push_back({outer});
+  return first_half;
+}
+
+std::vector<unsigned int> ForcePanels::on(double z, double begin) const {
+  std::vector<unsigned int> line;
+  line.reserve(32);
+  collect(0, z, begin, line);
+  return line;
+}
+
+void ForcePanels::collect(unsigned int number, double z, double begin,
+                          std::vector<unsigned int>& line) const {
+  const auto& [panel, first_half, direction] = nodes[number];
+  if (panel.high[0] <= begin)
+    return;
+  if (first_half == 0) {
+    line.push_back(number);
+    return;
+  }
+  const bool both = direction == 0, is_inner = z < nodes[first_half].panel.high[1];
+  if (both || is_inner)
+    collect(first_half, z, begin, line);
+  if (both || !is_inner)
+    collect(first_half + 1, z, begin, line);
+}
+
+ForceColumn ForcePanels::column(const std::vector<unsigned int>& line, double z) const {
+  ForceColumn pieces;
+  pieces.reserve(line.size());
+  double angular_begin = 0, angular_end = 0; // which many panels along r have in common
+  ForcePiece::Coefficients angular = {};
+  for (const unsigned int i : line) {
+    const ForcePanel& panel = nodes[i].panel;
+    if (angular_begin != panel.low[1] || angular_end != panel.high[1]) {
+      angular_begin = panel.low[1];
+      angular_end = panel.high[1];
+      angular = legendre_values((z - angular_begin) / (angular_end - angular_begin));
+    }
+    pieces.push_back({panel.low[0], panel.high[0], {}, 0});
+    for (unsigned int l = 0; l < panel.n_rows; ++l)
+      for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k)
+        pieces.back().coefficients[k] += angular[l] * panel.coefficients(l, k);
+  }
+  for (unsigned int i = pieces.size(); i-- > 1;)
+    pieces[i - 1].outside =
+        pieces[i].outside + (pieces[i].end - pieces[i].begin) * pieces[i].coefficients[0];
+  return pieces;
+}
+
+std::vector<double> ForcePanels::ends(double begin, double end) const {
+  std::vector<double> angles;
+  const double period = nodes[0].panel.high[1];
+  double turn = std::floor(begin / period) * period;
+  for (double z = begin - turn;;) {
+    double next = period;
+    for (const unsigned int i : on(z, 0))
+      next = std::min(next, nodes[i].panel.high[1]);
+    if (turn + next >= end)
+      return angles;
+    angles.push_back(turn + next);
+    z = next;
+    if (next == period) {
+      turn += period;
+      z = 0;
+    }
+  }
+}
+
+double ForcePanels::friedrichs_norm(const Scene& scene) const {
+  double norm_squared = 0;
+  for (unsigned int i = 0; i < size(); ++i)
+    if (is_part(i))
+      norm_squared += nodes[i].panel.norm_squared;
+  return std::sqrt(friedrichs_squared(scene) * norm_squared);
+}
+
+} // namespace rollwave
