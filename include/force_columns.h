@@ -2,25 +2,26 @@
 #define ROLLWAVE_FORCE_COLUMNS_H
 
 #include "force_integrals.h"
-#include "force_interpolant.h"
+#include "force_lines.h"
 #include "interval_map.h"
 
-#include <deal.II/base/quadrature.h>
+#include <deal.II/base/quadrature_lib.h>
 
 #include <vector>
 
 namespace rollwave {
 
+struct Scene;
+
 /// The lines z = const and the radial intervals at which the cells of a mesh need a force, many of
 /// which they have in common: each is made when first asked for.
 class ForceColumns {
 public:
-  /// @param rule for a cell's angular interval [0, 1]: the lines are at its points
-  ForceColumns(const ForceInterpolant& force, const dealii::Quadrature<1>& rule)
-      : force(force), rule(rule) {}
+  /// @param gauss for a cell's angular interval [0, 1]
+  ForceColumns(const Scene& scene, const ForceInterpolant& force, const dealii::QGauss<1>& gauss);
 
   /// Those of the angular interval [begin, end].
-  const std::vector<ForceColumn>& on(double begin, double end);
+  const ForceLines& on(double begin, double end);
 
   /// Any other, beyond the radius @p begin.
   ForceColumn at(double z, double begin) const { return force.column(z, begin); }
@@ -37,8 +38,9 @@ public:
 
 private:
   const ForceInterpolant& force;
-  const dealii::Quadrature<1> rule;
-  IntervalMap<std::vector<ForceColumn>> columns;
+  const FinerRule within_panel;
+  const double negligible; ///< root mean square over z of what is missed of G
+  IntervalMap<ForceLines> lines;
   IntervalMap<ForceAtRadii> known_radii;
   IntervalMap<ForceLoads> known_loads;
   IntervalMap<std::vector<double>> known_integrals;

@@ -5,8 +5,6 @@
 #include "radial_shapes.h"
 #include "ring_space.h"
 
-#include <deal.II/base/quadrature_lib.h>
-
 #include <vector>
 
 namespace rollwave {
@@ -16,11 +14,9 @@ struct Scene;
 /// What a force that is no number contributes to the certificates of all scenes on one mesh with
 /// one speed, G = int_r^b rho f_0 drho.
 struct ForceContribution {
-  /// @param gauss with degree + 2 points
-  /// @param columns with lines at these
-  ForceContribution(const RingSpace& space, const Scene& scene, const ForceInterpolant& force,
-                    RadialShapesOfMesh& shapes, ForceColumns& columns,
-                    const dealii::QGauss<1>& gauss);
+  /// @param columns of Gauss' rule with degree + 2 points
+  ForceContribution(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
+                    ForceColumns& columns);
 
   FieldVector to_potential;       ///< int G psi_z / r dr dz
   std::vector<double> to_bubbles; ///< int G P psi_i / r dr dz, i from the hub, for each active cell

@@ -34,10 +34,10 @@ public:
   /// Where within ]begin, end[ panels end, in order: G is smooth in between.
   std::vector<double> panel_ends(double begin, double end) const { return panels.ends(begin, end); }
 
-  /// A bound, for any radius, of the root mean square over z in [begin, end], at the points of the
-  /// fine rule, of G less the polynomial that equals it at the points of the rule, from the
-  /// coefficients. No panel may end in between.
-  double missed_along_z(double begin, double end, const HalvedRule& rules) const;
+  /// A bound, for any radius, of the root mean square over z in [begin, end], by the finer rule, of
+  /// G less the polynomial that equals it at the points of the rule: from the coefficients. No
+  /// panel may end in between.
+  double missed_along_z(double begin, double end, const FinerRule& rules) const;
 
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }

@@ -6,6 +6,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <vector>
+
 namespace rollwave {
 
 struct Scene;
@@ -51,6 +53,13 @@ struct ForcePanel {
 
   double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
 
+  /// Looks at m on the middle line in a direction as well, at these coordinates. Where its variance
+  /// there is more than four times what the panel's points say, f does something between these, and
+  /// m is taken for as large, its mean for as much off.
+  /// @throws BadInput where f is not finite
+  void look_along(const Scene& scene, unsigned int direction,
+                  const std::vector<double>& coordinates);
+
   /// Of m, by the panel's points.
   double mean_square() const { return missed.mean * missed.mean + squares.sum(); }
 
@@ -83,10 +92,10 @@ struct ForcePanel {
   Missed beside_mean;                      ///< likewise
 
 private:
-  /// r f at a point given by shares of the panel's sides.
-  double moment(const Scene& scene, const dealii::Point<2>& share) const;
-
   void interpolate(const Scene& scene);
+
+  /// What is left out by f_0, and would be by the mean of f.
+  void weigh(const Scene& scene, double mean);
   Missed weigh(const Scene& scene, const MeanSquares& squares, double mean) const;
 };
 

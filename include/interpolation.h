@@ -11,12 +11,12 @@ namespace rollwave {
 dealii::FullMatrix<double> interpolation(const dealii::Quadrature<1>& from,
                                          const dealii::Quadrature<1>& to);
 
-/// A rule, and itself on both halves, which tells what the rule misses.
-struct HalvedRule {
-  explicit HalvedRule(const dealii::QGauss<1>& rule);
+/// A rule, and a finer one, which tells what the rule misses.
+struct FinerRule {
+  FinerRule(const dealii::QGauss<1>& rule, const dealii::Quadrature<1>& fine);
 
   const dealii::QGauss<1> rule;
-  const dealii::QIterated<1> fine;
+  const dealii::Quadrature<1> fine;
   const dealii::FullMatrix<double> interpolation; ///< from the rule to the fine one
 };
 

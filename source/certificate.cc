@@ -4,6 +4,7 @@
 #include "constant_size.h"
 #include "edge_pressure.h"
 #include "force_columns.h"
+#include "interval_map.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "scene.h"
@@ -112,15 +113,17 @@ public:
     }
   }
 
-  /// G at the radii of the rule, on the line number @p p of the mesh's columns and on any line of
-  /// the cell; nullptr without force.
+  /// The lines of a force whose rule along z is not that of the element; nullptr without them.
+  const ForceLines* exact_lines() const { return lines && lines->is_exact() ? lines : nullptr; }
+
+  /// G at the radii of the rule, on the line number @p p of the rule along z and on any line of the
+  /// cell; nullptr without force.
   const std::vector<double>* moments_on(unsigned int p) {
-    return columns && !equal_moments ? &moments_of((*lines)[p]) : equal_moments;
+    return lines ? &moments_of(lines->columns[p]) : equal_moments;
   }
   const std::vector<double>* moments_at(double t) {
-    return columns && !equal_moments
-               ? &moments_of(columns->at(low[1] + t * (high[1] - low[1]), low[0]))
-               : equal_moments;
+    return lines ? &moments_of(columns->at(low[1] + t * (high[1] - low[1]), low[0]))
+                 : equal_moments;
   }
 
   /// On one line, with the correction c of v on the surface.
@@ -149,6 +152,12 @@ public:
   double angular_length() const { return length; }
   bool ends_at(double radius) const { return high[0] == radius; }
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
+  std::vector<AngularShapes> angular_shapes(const Quadrature<1>& rule) const {
+    std::vector<AngularShapes> shapes;
+    for (const auto& point : rule.get_points())
+      shapes.push_back(angular_shapes(point[0]));
+    return shapes;
+  }
 
 private:
   /// With @p n shape functions in each direction.
@@ -218,11 +227,22 @@ private:
   Point<2> low, high;
   double length = 0, per_length = 0, per_height = 0; ///< in z and in r
   const RadialShapes* radial = nullptr;
-  const std::vector<ForceColumn>* lines = nullptr;
+  const ForceLines* lines = nullptr; ///< of a force that is no number
   ForceAtRadii* at_radii = nullptr;
   std::vector<double> moments;                        ///< G on a line
   const std::vector<double>* equal_moments = nullptr; ///< of a number
 };
+
+/// The ends of a piece of an edge, and those of panels in between.
+std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const ForceLines* exact) {
+  std::vector<double> ends = {piece.t_begin};
+  if (exact)
+    for (const double t : exact->ends)
+      if (piece.t_begin < t && t < piece.t_end)
+        ends.push_back(t);
+  ends.push_back(piece.t_end);
+  return ends;
+}
 
 } // namespace
 
@@ -246,7 +266,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
   if (is_uneven && !dual.of_force)
-    dual.of_force.emplace(space, scene, *dual.interpolant, dual.shapes, *columns, gauss);
+    dual.of_force.emplace(space, scene, dual.shapes, *columns);
   const FieldVector potential = system.potential->solve(
       scene, dual.shapes, pressures, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
@@ -258,9 +278,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,
                                is_uneven ? &dual.of_force->to_bubbles : nullptr, *dual.bubbles);
   Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns);
-  std::vector<AngularShapes> lines;
-  for (const auto& point : gauss.get_points())
-    lines.push_back(integrator.angular_shapes(point[0]));
+  const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
+  IntervalMap<std::vector<AngularShapes>> exact_shapes;
   std::vector<double> cell_bounds(triangulation.n_active_cells());
   LineIntegrals total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -272,25 +291,33 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     double contact_work = 0;
     const auto face =
         integrator.ends_at(scene.outer_radius) ? space.surface_face(cell) : std::nullopt;
+    const ForceLines* const exact = integrator.exact_lines();
     if (!face) {
-      for (unsigned int p = 0; p < gauss.size(); ++p)
+      const Quadrature<1>& rule = exact ? exact->rule : gauss;
+      const auto& lines = exact ? exact_shapes.at(cell->vertex(0)[1], cell->vertex(3)[1],
+                                                  [&] { return integrator.angular_shapes(rule); })
+                                : shapes_of_gauss;
+      for (unsigned int p = 0; p < rule.size(); ++p)
         sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.moments_on(p)),
-                 gauss.weight(p) * length);
+                 rule.weight(p) * length);
       if (!is_uneven)
         sums.bound_squared += integrator.unseen_square();
     } else
-      for (const auto& piece : trace.pieces(*face))
-        for (unsigned int p = 0; p < along_road.size(); ++p) {
-          const double piece_length = piece.t_end - piece.t_begin;
-          const double t = piece.t_begin + piece_length * along_road.point(p)[0];
-          const double weight = along_road.weight(p) * piece_length * length;
-          const auto correction = trace.correction(*face, piece, t);
-          const AngularShapes angular = integrator.angular_shapes(t);
-          const double pressure =
-              pressures[*face](t) + integrator.surface_bubble() / scene.outer_radius * angular.mode;
-          sums.add(integrator.on_line(angular, correction, integrator.moments_at(t)), weight);
-          contact_work += weight * scene.outer_radius * pressure * correction.gap;
-        }
+      for (const auto& piece : trace.pieces(*face)) {
+        const std::vector<double> ends = ends_of_parts(piece, exact);
+        for (unsigned int part = 0; part + 1 < ends.size(); ++part)
+          for (unsigned int p = 0; p < along_road.size(); ++p) {
+            const double share = ends[part + 1] - ends[part];
+            const double t = ends[part] + share * along_road.point(p)[0];
+            const double weight = along_road.weight(p) * share * length;
+            const auto correction = trace.correction(*face, piece, t);
+            const AngularShapes angular = integrator.angular_shapes(t);
+            const double pressure = pressures[*face](t) +
+                                    integrator.surface_bubble() / scene.outer_radius * angular.mode;
+            sums.add(integrator.on_line(angular, correction, integrator.moments_at(t)), weight);
+            contact_work += weight * scene.outer_radius * pressure * correction.gap;
+          }
+      }
     sums.bound_squared += 2 * contact_work;
     cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(sums.bound_squared, 0.));
     total.add(sums, 1);

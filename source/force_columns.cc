@@ -1,9 +1,30 @@
 #include "force_columns.h"
 
+#include "contact_free.h"
+#include "scene.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace rollwave {
 
-const std::vector<ForceColumn>& ForceColumns::on(double begin, double end) {
-  return columns.at(begin, end, [&] { return force.columns(begin, end, rule); });
+using namespace dealii;
+
+ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
+                           const QGauss<1>& gauss)
+    : force(force),
+      within_panel(gauss,
+                   QGauss<1>(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()))),
+      // of (int w^2 / r dr dz)^(1/2) over the ring
+      negligible(
+          force.negligible() /
+          std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {}
+
+const ForceLines& ForceColumns::on(double begin, double end) {
+  return lines.at(begin, end,
+                  [&] { return ForceLines(force, begin, end, within_panel, negligible); });
 }
 
 ForceAtRadii& ForceColumns::at_radii(double begin, double end, const RadialShapes& radial) {

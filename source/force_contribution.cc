@@ -2,35 +2,47 @@
 
 #include "angular_bubbles.h"
 #include "dual_potential.h"
+#include "interval_map.h"
 #include "missed_moment.h"
 
 namespace rollwave {
 
 using namespace dealii;
 
+namespace {
+
+/// Functions of z at the points of a rule on [0, 1], times its weights: d/dz dz = d/dt dt.
+struct WeightedShapes {
+  WeightedShapes(unsigned int degree, const Quadrature<1>& rule)
+      : slope(rule.size(), degree + 1), mode(rule.size()) {
+    const auto lagrange = lobatto_lagrange(degree);
+    const auto bubble_mode = AngularBubbles::mode(degree);
+    std::vector<double> both(2);
+    for (unsigned int p = 0; p < rule.size(); ++p) {
+      for (unsigned int j = 0; j <= degree; ++j) {
+        lagrange[j].value(rule.point(p)[0], both);
+        slope(p, j) = rule.weight(p) * both[1];
+      }
+      mode[p] = rule.weight(p) * bubble_mode.value(rule.point(p)[0]);
+    }
+  }
+
+  FullMatrix<double> slope; ///< of the element's shape functions
+  std::vector<double> mode; ///< of the bubbles
+};
+
+} // namespace
+
 ForceContribution::ForceContribution(const RingSpace& space, const Scene& scene,
-                                     const ForceInterpolant& force, RadialShapesOfMesh& shapes,
-                                     ForceColumns& columns, const QGauss<1>& gauss)
+                                     RadialShapesOfMesh& shapes, ForceColumns& columns)
     : to_potential(space.make_field()) {
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
   const unsigned int n = element.degree + 1;
-  FullMatrix<double> weighted_slope(gauss.size(), n); // on [0, 1]: d/dz dz = d/dt dt
-  std::vector<double> weighted_mode;
-  const auto lagrange = lobatto_lagrange(element.degree);
-  const auto mode = AngularBubbles::mode(element.degree);
-  std::vector<double> both(2);
-  for (unsigned int p = 0; p < gauss.size(); ++p) {
-    for (unsigned int j = 0; j < n; ++j) {
-      lagrange[j].value(gauss.point(p)[0], both);
-      weighted_slope(p, j) = gauss.weight(p) * both[1];
-    }
-    weighted_mode.push_back(gauss.weight(p) * mode.value(gauss.point(p)[0]));
-  }
-
   const AffineConstraints<double> constraints =
       potential_constraints(space, scene, std::vector<EdgePressure>(space.surface_faces().size()));
-  MissedMoment moment(scene, force, shapes, columns, gauss);
+  IntervalMap<WeightedShapes> known_shapes;
+  MissedMoment moment(shapes);
   to_bubbles.resize(n * space.dof_handler().get_triangulation().n_active_cells());
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n);
@@ -40,16 +52,18 @@ ForceContribution::ForceContribution(const RingSpace& space, const Scene& scene,
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const RadialShapes& radial = shapes.on(low[0], high[0]);
-    const auto& lines = columns.on(low[1], high[1]);
+    const ForceLines& lines = columns.on(low[1], high[1]);
+    const auto& [slope, mode] = known_shapes.at(
+        low[1], high[1], [&] { return WeightedShapes(element.degree, lines.rule); });
     ForceLoads& force_loads = columns.loads(low[0], high[0], radial);
     double* const to_bubble = &to_bubbles[n * cell->active_cell_index()];
     cell_vector = 0;
-    for (unsigned int p = 0; p < gauss.size(); ++p) {
-      force_loads.integrate(lines[p], loads);
+    for (unsigned int p = 0; p < lines.columns.size(); ++p) {
+      force_loads.integrate(lines.columns[p], loads);
       for (unsigned int i = 0; i < n; ++i) {
-        to_bubble[i] += (high[1] - low[1]) * weighted_mode[p] * loads[i];
+        to_bubble[i] += (high[1] - low[1]) * mode[p] * loads[i];
         for (unsigned int j = 0; j < n; ++j)
-          cell_vector(i + n * j) += weighted_slope(p, j) * loads[i];
+          cell_vector(i + n * j) += slope(p, j) * loads[i];
       }
     }
     cell->get_dof_indices(dofs);

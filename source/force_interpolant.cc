@@ -43,7 +43,7 @@ std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
   return lines;
 }
 
-double ForceInterpolant::missed_along_z(double begin, double end, const HalvedRule& rules) const {
+double ForceInterpolant::missed_along_z(double begin, double end, const FinerRule& rules) const {
   const auto angles = [&](const Quadrature<1>& rule) {
     std::vector<double> z;
     for (const auto& point : rule.get_points())

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace rollwave {
 
@@ -48,6 +49,20 @@ double point_within(double begin, double end, double share) {
   const double roundings =
       std::min(2e-15 * std::max(std::abs(begin), std::abs(end)), (end - begin) / 4);
   return std::clamp(begin + share * (end - begin), begin + roundings, end - roundings);
+}
+
+/// r f
+double moment(const Scene& scene, double r, double z) {
+  const double f = scene.force(r, z);
+  if (!std::isfinite(f))
+    throw BadInput(force_not_finite_at(scene, r, z));
+  return r * f;
+}
+
+/// r f at a point given by shares of a panel's sides.
+double moment(const Scene& scene, const ForcePanel& panel, const Point<2>& share) {
+  return moment(scene, point_within(panel.low[0], panel.high[0], share[0]),
+                point_within(panel.low[1], panel.high[1], share[1]));
 }
 
 /// Of what is given at the points of a product of a rule.
@@ -91,20 +106,11 @@ ForcePanel::ForcePanel(const Scene& scene, const Point<2>& low, const Point<2>& 
   interpolate(scene);
 }
 
-double ForcePanel::moment(const Scene& scene, const Point<2>& share) const {
-  const double r = point_within(low[0], high[0], share[0]);
-  const double z = point_within(low[1], high[1], share[1]);
-  const double f = scene.force(r, z);
-  if (!std::isfinite(f))
-    throw BadInput(force_not_finite_at(scene, r, z));
-  return r * f;
-}
-
 void ForcePanel::interpolate(const Scene& scene) {
   FullMatrix<double> nodal(n), half(n);
   for (unsigned int j = 0; j < n; ++j)
     for (unsigned int i = 0; i < n; ++i)
-      nodal(j, i) = moment(scene, {points().gauss.point(i)[0], points().gauss.point(j)[0]});
+      nodal(j, i) = moment(scene, *this, {points().gauss.point(i)[0], points().gauss.point(j)[0]});
   points().to_coefficients.mmult(half, nodal);
   coefficients.reinit(n, n);
   half.mTmult(coefficients, points().to_coefficients);
@@ -126,7 +132,7 @@ void ForcePanel::judge(const Scene& scene) {
   rows.mTmult(missing, points().to_values);
   for (unsigned int q = 0; q < rule.size(); ++q)
     for (unsigned int p = 0; p < rule.size(); ++p) {
-      all(q, p) = moment(scene, {rule.point(p)[0], rule.point(q)[0]});
+      all(q, p) = moment(scene, *this, {rule.point(p)[0], rule.point(q)[0]});
       missing(q, p) = all(q, p) - missing(q, p);
       norm_squared += area() * rule.weight(p) * rule.weight(q) * all(q, p) * all(q, p) /
                       (low[0] + rule.point(p)[0] * (high[0] - low[0]));
@@ -134,9 +140,43 @@ void ForcePanel::judge(const Scene& scene) {
   const double mean = mean_of(missing, rule);
   squares = mean_squares(missing, rule, mean);
   coefficients(0, 0) += mean;
-  missed = weigh(scene, squares, std::abs(mean));
   squares_beside_mean = mean_squares(all, rule, mean_of(all, rule));
+  weigh(scene,
+        std::max(std::abs(mean), std::sqrt(squares.of_r + squares.of_z + squares.rest / 16) / 4));
+}
+
+void ForcePanel::weigh(const Scene& scene, double mean) {
+  missed = weigh(scene, squares, mean);
   beside_mean = weigh(scene, squares_beside_mean, std::sqrt(squares_beside_mean.sum()));
+}
+
+void ForcePanel::look_along(const Scene& scene, unsigned int direction,
+                            const std::vector<double>& coordinates) {
+  Point<2> point = low + (high - low) / 2;
+  const Tensor<1, 2> size = high - low;
+  std::vector<double> missing;
+  for (const double x : coordinates) {
+    point[direction] = x;
+    const auto along_r = legendre_values((point[0] - low[0]) / size[0]),
+               along_z = legendre_values((point[1] - low[1]) / size[1]);
+    double value = moment(scene, point[0], point[1]);
+    for (unsigned int l = 0; l < n_rows; ++l)
+      for (unsigned int k = 0; k < n; ++k)
+        value -= coefficients(l, k) * along_z[l] * along_r[k];
+    missing.push_back(value);
+  }
+  const double mean = std::accumulate(missing.begin(), missing.end(), 0.) / missing.size();
+  double variance = 0;
+  for (const double value : missing)
+    variance += (value - mean) * (value - mean) / missing.size();
+  const auto along = [direction](MeanSquares& all) -> double& {
+    return direction == 0 ? all.of_r : all.of_z;
+  };
+  if (variance <= 4 * (along(squares) + squares.rest))
+    return;
+  for (MeanSquares* all : {&squares, &squares_beside_mean})
+    along(*all) = std::max(along(*all), variance);
+  weigh(scene, std::max(missed.mean, std::sqrt(variance)));
 }
 
 unsigned int ForcePanel::rougher_direction() const {

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
+#include <unordered_set>
 #include <utility>
 
 namespace rollwave {
@@ -27,15 +29,19 @@ public:
     for (unsigned int i = 0; i < panels.size(); ++i)
       if (panels.is_part(i))
         add(i);
+    const double norm = panels.friedrichs_norm(scene);
+    usual.mean = norm / std::sqrt(friedrichs_squared(scene) * panels[0].area());
     most_panels = panels.size() + 16 + space.n_unknowns() / 100;
     negligible_squared = std::pow(negligible_error_of_force(space, scene, panels), 2) / most_panels;
-    allowed_squared = std::max(std::pow(round_off * panels.friedrichs_norm(scene), 2) / most_panels,
-                               1e-10 * negligible_squared);
+    allowed_squared =
+        std::max(std::pow(round_off * norm, 2) / most_panels, 1e-10 * negligible_squared);
     do
       halve_the_worst(panels.size() + 3 * (most_panels - panels.size()) / 4);
     while (quarter_where_load_points_see_more());
+    const unsigned int n_looked_at = panels.size();
     halve_the_worst(most_panels);
-    look_at_load_points();
+    if (panels.size() > n_looked_at)
+      look_at_load_points();
   }
 
   ForcePanels panels;
@@ -61,28 +67,80 @@ private:
     return panel.high[direction] - panel.low[direction] >= smallest * panel.high[direction];
   }
 
-  void add(unsigned int i) {
-    panels[i].judge(scene);
-    worst.push({panels[i].squared_alone(scene, panels[i].missed), i});
-  }
+  /// A part, to be judged.
+  void add(unsigned int i);
+
+  /// The centers of this process' cells, with angles in [0, 2 pi).
+  std::vector<Point<2>> own_centers();
+
+  /// The coordinates of the centers of all cells, in order.
+  const std::vector<double>& cell_centers(unsigned int direction);
 
   const RingSpace& space;
   const Scene& scene;
   const std::vector<double>& moments;
   Queue worst;
-  unsigned int most_panels;
-  double negligible_squared, allowed_squared;
+  unsigned int most_panels = 0;
+  double negligible_squared = 0, allowed_squared = 0;
+  /// A force of the usual size that is not seen at all.
+  ForcePanel::Missed usual = {std::numeric_limits<double>::infinity(), 0, 0};
+  Tensor<1, 2> largest_cell; ///< in each direction
+  std::vector<double> coordinates[2];
 };
+
+std::vector<Point<2>> Chooser::own_centers() {
+  std::vector<Point<2>> centers;
+  for (const auto& cell : space.dof_handler().get_triangulation().active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+      const Point<2> center = cell->vertex(0) + size / 2;
+      const double period = center[1] < 2 * numbers::PI ? 0 : 2 * numbers::PI;
+      centers.emplace_back(center[0], center[1] - period);
+      for (const unsigned int direction : {0, 1})
+        largest_cell[direction] = std::max(largest_cell[direction], size[direction]);
+    }
+  for (const unsigned int direction : {0, 1})
+    largest_cell[direction] = Utilities::MPI::max(largest_cell[direction], space.communicator());
+  return centers;
+}
+
+const std::vector<double>& Chooser::cell_centers(unsigned int direction) {
+  std::vector<double>& all = coordinates[direction];
+  if (all.empty()) {
+    std::unordered_set<double> own;
+    for (const Point<2>& center : own_centers())
+      own.insert(center[direction]);
+    for (const auto& some : Utilities::MPI::all_gather(space.communicator(),
+                                                       std::vector<double>(own.begin(), own.end())))
+      all.insert(all.end(), some.begin(), some.end());
+    std::sort(all.begin(), all.end());
+    const auto are_same = [](double x, double y) { return y - x < 1e-12 * y; };
+    all.erase(std::unique(all.begin(), all.end(), are_same), all.end());
+  }
+  return all;
+}
+
+void Chooser::add(unsigned int i) {
+  ForcePanel& panel = panels[i];
+  panel.judge(scene);
+  const Tensor<1, 2> size = panel.high - panel.low;
+  for (const unsigned int direction : {0, 1})
+    if (size[1 - direction] < 2 * largest_cell[1 - direction] &&
+        panel.squared_alone(scene, usual) > negligible_squared) {
+      const auto& centers = cell_centers(direction);
+      const double roundings = 1e-14 * panel.high[direction];
+      const auto begin =
+          std::upper_bound(centers.begin(), centers.end(), panel.low[direction] + roundings);
+      const auto end = std::lower_bound(begin, centers.end(), panel.high[direction] - roundings);
+      if (end - begin > ForcePanel::n_points)
+        panel.look_along(scene, direction, {begin, end});
+    }
+  worst.push({panel.squared_alone(scene, panel.missed), i});
+}
 
 void Chooser::halve_where_fine() {
   const auto& triangulation = space.dof_handler().get_triangulation();
-  std::vector<Point<2>> centers;
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned()) {
-      const Point<2> center = cell->vertex(0) + (cell->vertex(3) - cell->vertex(0)) / 2;
-      const double period = center[1] < 2 * numbers::PI ? 0 : 2 * numbers::PI;
-      centers.emplace_back(center[0], center[1] - period);
-    }
+  std::vector<Point<2>> centers = own_centers();
   const unsigned int n_cells = triangulation.n_global_active_cells();
   const double most_cells = n_cells * std::max(1. / 32, 128. / space.n_unknowns());
   struct Cells {

@@ -15,7 +15,7 @@ FullMatrix<double> interpolation(const Quadrature<1>& from, const Quadrature<1>&
   return matrix;
 }
 
-HalvedRule::HalvedRule(const QGauss<1>& rule)
-    : rule(rule), fine(rule, 2), interpolation(rollwave::interpolation(rule, fine)) {}
+FinerRule::FinerRule(const QGauss<1>& rule, const Quadrature<1>& fine)
+    : rule(rule), fine(fine), interpolation(rollwave::interpolation(rule, fine)) {}
 
 } // namespace rollwave

@@ -11,7 +11,7 @@ DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::stri
                       : std::nullopt),
       gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
   if (interpolant)
-    columns.emplace(*interpolant, gauss);
+    columns.emplace(scene, *interpolant, gauss);
 }
 
 bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {

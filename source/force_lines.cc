@@ -1,0 +1,133 @@
+#include "force_lines.h"
+
+#include "interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+constexpr unsigned int n = ForcePiece::n_coefficients;
+
+Quadrature<1> rule_between(const std::vector<double>& ends, unsigned int n_points) {
+  constexpr unsigned int n_on_short = 3;
+  constexpr double short_part = 0.01;
+  std::vector<Point<1>> points;
+  std::vector<double> weights;
+  for (unsigned int part = 0; part + 1 < ends.size(); ++part) {
+    const double share = ends[part + 1] - ends[part];
+    const QGauss<1> gauss(share < short_part ? n_on_short : n_points);
+    for (unsigned int q = 0; q < gauss.size(); ++q) {
+      points.emplace_back(ends[part] + share * gauss.point(q)[0]);
+      weights.push_back(share * gauss.weight(q));
+    }
+  }
+  return {points, weights};
+}
+
+/// The piece between two of its radii, by the Legendre polynomials there.
+ForcePiece::Coefficients coefficients_between(const ForcePiece& piece, double begin, double end) {
+  if (begin == piece.begin && end == piece.end)
+    return piece.coefficients;
+  static const QGauss<1> gauss(n);
+  ForcePiece::Coefficients coefficients = {};
+  for (unsigned int q = 0; q < n; ++q) {
+    const double r = begin + gauss.point(q)[0] * (end - begin);
+    const auto there = legendre_values((r - piece.begin) / (piece.end - piece.begin)),
+               here = legendre_values(gauss.point(q)[0]);
+    const double value =
+        std::inner_product(there.begin(), there.end(), piece.coefficients.begin(), 0.);
+    for (unsigned int k = 0; k < n; ++k)
+      coefficients[k] += gauss.weight(q) * value * here[k];
+  }
+  return coefficients;
+}
+
+/// The radii where any of the columns has an end.
+std::vector<double> all_radii(const std::vector<ForceColumn>& columns,
+                              const std::vector<ForceColumn>& others) {
+  std::vector<double> radii = {columns.front().front().begin};
+  for (const auto* some : {&columns, &others})
+    for (const ForceColumn& column : *some)
+      for (const ForcePiece& piece : column)
+        radii.push_back(piece.end);
+  std::sort(radii.begin(), radii.end());
+  radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
+  return radii;
+}
+
+} // namespace
+
+ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
+                       const FinerRule& within_panel, double negligible)
+    : rule(within_panel.rule), columns(force.columns(begin, end, rule)), ends({0}) {
+  for (const double z : force.panel_ends(begin, end))
+    ends.push_back((z - begin) / (end - begin));
+  ends.push_back(1);
+  const bool is_on_one_panel = ends.size() == 2;
+  Quadrature<1> exact;
+  std::vector<ForceColumn> exact_columns;
+  const auto make_exact = [&] {
+    exact = rule_between(ends, within_panel.fine.size());
+    exact_columns = force.columns(begin, end, exact);
+  };
+  double missed;
+  if (is_on_one_panel)
+    missed = force.missed_along_z(begin, end, within_panel);
+  else {
+    make_exact();
+    missed = missed_along_z(exact, exact_columns, rule, columns);
+  }
+  if (missed <= negligible) {
+    missed_mean_square = missed * missed;
+    ends.clear();
+    return;
+  }
+  if (is_on_one_panel)
+    make_exact();
+  rule = exact;
+  columns = std::move(exact_columns);
+}
+
+double missed_along_z(const Quadrature<1>& rule, const std::vector<ForceColumn>& columns,
+                      const Quadrature<1>& other, const std::vector<ForceColumn>& others) {
+  const FullMatrix<double> from_others = interpolation(other, rule);
+  const std::vector<double> radii = all_radii(columns, others);
+  std::vector<unsigned int> piece(columns.size()), piece_of_other(others.size());
+  std::vector<ForcePiece::Coefficients> of_others(others.size());
+  double outside = 0, largest = 0;
+  for (unsigned int s = radii.size() - 1; s-- > 0;) {
+    const double height = radii[s + 1] - radii[s];
+    const auto between = [&](const ForceColumn& column) {
+      const auto piece = std::find_if(column.begin(), column.end(), [&](const ForcePiece& piece) {
+        return piece.end >= radii[s + 1];
+      });
+      return coefficients_between(*piece, radii[s], radii[s + 1]);
+    };
+    std::transform(others.begin(), others.end(), of_others.begin(), between);
+    ForcePiece::Coefficients squares = {};
+    for (unsigned int p = 0; p < columns.size(); ++p) {
+      ForcePiece::Coefficients missed = between(columns[p]);
+      for (unsigned int i = 0; i < others.size(); ++i)
+        for (unsigned int k = 0; k < n; ++k)
+          missed[k] -= from_others(p, i) * of_others[i][k];
+      for (unsigned int k = 0; k < n; ++k)
+        squares[k] += rule.weight(p) * missed[k] * missed[k];
+    }
+    ForcePiece::Coefficients missed;
+    std::transform(squares.begin(), squares.end(), missed.begin(),
+                   [](double x) { return std::sqrt(x); });
+    // Legendre polynomials other than the first have no mean: |int_t^1 L_k| <= (t (1 - t))^(1/2).
+    const double within = std::accumulate(missed.begin(), missed.end(), missed[0]) / 2;
+    largest = std::max(largest, outside + height * within);
+    outside += height * missed[0];
+  }
+  return largest;
+}
+
+} // namespace rollwave
