@@ -36,9 +36,10 @@ struct MeshSystem;
  *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   ||w||^2 = int r w^2 dr dz.
  *
  * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
- * road with degree + 6 points. The bound assumes that these resolve phi; of a force that is no
- * number, that the points of ForceInterpolant's panels see what it does there, and those of
- * MissedMoment along r what the rules miss.
+ * road with degree + 6 points, and between the ends of panels where G is no polynomial in z
+ * (ForceLines). The bound assumes that these resolve phi; of a force that is no number, that the
+ * points of choose_force_panels() see what it does, and those of MissedMoment along r what the
+ * rules miss.
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds

@@ -24,7 +24,10 @@ struct Scene;
  *
  * r and r alpha being the least on the panel. Friedrichs' inequality (Certificate), blind for
  * panels, takes m_z where alpha vanishes. Norms and means are taken on half as many points again in
- * each direction, which include the panel's edges: what begins next to one is seen.
+ * each direction, which include the panel's edges: what begins next to one is seen. By how much the
+ * means of both sets of points differ the mean of m may be off, m_0; by a quarter of (||m_r||^2 +
+ * ||m_z||^2 + ||rest||^2 / 16)^(1/2) at least, over the root of the area, since both may agree
+ * about a jump.
  */
 struct ForcePanel {
   /// On which f_0 is compared with f, in each direction.

@@ -13,16 +13,17 @@ struct Scene;
 /**
  * Panels for the force of a scene, the same on all processes.
  *
- * Panels are halved until each has a small share of the mesh's cells, then the worst first until
- * they leave out 1e-5 of what is negligible, as many as the mesh pays for; in the direction in
- * which f is rougher. They are not halved either where even the mean of f would leave out a
- * negligible part. There f_0 becomes that mean, and m_0 the root mean square of m, unless the
- * panel is resolved.
+ * They are halved until each has a small share of the mesh's cells, then the worst first until they
+ * leave out 1e-5 of what is negligible, as many as the mesh pays for; in the direction in which f
+ * is rougher. They are not halved either where even the mean of f would leave out a negligible
+ * part. There f_0 becomes that mean, and m_0 the root mean square of m, unless the panel is
+ * resolved.
  *
- * Last, m is taken at the points of the load. Where its mean square is more than there than four
- * times what the panel's points say, f has something between those: such panels are quartered, and
- * looked at again. What a panel misses is what its points or those of the load say, whichever is
- * more.
+ * The points of a panel may miss what the load sees. On panels that are lower than two cells and
+ * longer than a dozen, or the other way round, m is taken on the middle line at each cell as well;
+ * and last on all at the points of the load, where these are closer than the panel's own. Where its
+ * mean square there is more than four times what the panel's points say, m is taken for as large,
+ * and the panel quartered and looked at again while the mesh pays for it.
  *
  * @param moments r f at the points of the load (Load)
  * @throws BadInput where f is not finite

@@ -3,6 +3,7 @@
 #include "certificate.h"
 
 #include "contact_free.h"
+#include "draw.h"
 #include "edge_pressure.h"
 #include "manufactured_scene.h"
 #include "mesh_solution.h"
@@ -20,34 +21,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <random>
 
 using namespace rollwave;
 using dealii::numbers::PI;
 
 namespace {
-
-/// How many random scenes to draw: ROLLWAVE_RANDOM_SCENES, or 30.
-int n_random_scenes() {
-  const char* const wanted = std::getenv("ROLLWAVE_RANDOM_SCENES");
-  return wanted ? std::atoi(wanted) : 30;
-}
-
-class Draw {
-public:
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  }
-  int count(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
-  template <typename T>
-  T one_of(const std::vector<T>& choices) {
-    return choices[count(0, choices.size() - 1)];
-  }
-
-private:
-  std::mt19937 engine{20240607};
-};
 
 std::string text(double value) {
   std::ostringstream out;
@@ -57,10 +35,10 @@ std::string text(double value) {
 }
 
 TEST(Certificate, HoldsForRandomScenes) {
-  Draw draw;
+  Draw draw(20240607);
   int n_checked = 0;
   double worst = 0, worst_on_fine_adaptive = 0;
-  while (n_checked < n_random_scenes()) {
+  while (n_checked < n_random_scenes(30)) {
     const double b = draw.one_of<double>({1, 0.3, 7});
     const double a = b * draw.number(0.1, 0.95);
     const double omega = draw.one_of<double>({0, draw.number(0, 0.95), 1}) / b;
