@@ -29,9 +29,9 @@ struct MeshSystem;
  *
  * G = int_r^b rho f_0 drho is the integral of the force f or, where that is not uniform, of a
  * ForceInterpolant f_0, and (f_0, v) = int G v_r dr dz. With (f - f_0, w) <= epsilon |w| for all w,
- * |w|^2 = a(w, w), a(v - u, v - u)^(1/2) <= epsilon + (epsilon^2 + eta^2)^(1/2), and the bounds of
- * J open accordingly. What Gauss' rules miss of G is added to eta, and opens the bounds of J too:
- * MissedMoment. Where nothing better is known of w there is Friedrichs' inequality
+ * |w|^2 = a(w, w), a(v - u, v - u)^(1/2) <= epsilon + eta by the triangle inequality, and the
+ * bounds of J open accordingly. What Gauss' rules miss of G is added to eta, and opens the bounds
+ * of J too: MissedMoment. Where nothing better is known of w there is Friedrichs' inequality
  *
  *     ||w|| <= C |w|,   C^2 = (b^2/2) ln(b/a) - (b^2 - a^2)/4,   ||w||^2 = int r w^2 dr dz.
  *

@@ -50,6 +50,14 @@ struct Scene {
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
   double zone_end;   ///< z1 in (z0, z0 + 2 pi)
 
+  /// Angles that are closer are the same: those of a mesh carry round-off of a few units in the
+  /// last place.
+  static constexpr double angular_round_off = 1e-13;
+
+  bool is_in_zone(double z) const {
+    return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
+  }
+
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
 

@@ -333,7 +333,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   if (!system.is_kept)
     system.dual.reset();
   const double eta = of_flux + missed;
-  const double energy_norm = epsilon + std::hypot(epsilon, eta);
+  const double energy_norm = epsilon + eta;
   const double energy = norm_squared / 2 - work_of_force;
   const double energy_error = (epsilon + missed) * std::sqrt(norm_squared);
   const double smallest_norm = std::sqrt(norm_squared) - energy_norm;

@@ -14,10 +14,9 @@ using namespace dealii;
 
 namespace {
 
-/// Whether an edge lies wholly in the zone; one that ends within round-off of a vertex ends there.
+/// Whether an edge lies wholly in the zone.
 bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
-  constexpr double tolerance = 1e-12;
-  return face.begin >= scene.zone_begin - tolerance && face.end <= scene.zone_end + tolerance;
+  return scene.is_in_zone(face.begin) && scene.is_in_zone(face.end);
 }
 
 /// Nodal force over the node's share of the edges that lie in the zone.

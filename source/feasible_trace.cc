@@ -52,13 +52,12 @@ FeasibleTrace::FeasibleTrace(const RingSpace& space, const Scene& scene, const F
       const auto contact = space.contact_number(node);
       n_active += contact && active[*contact];
     }
-    // The part of the edge in the zone, in terms of t. A zone that ends within round-off of a
-    // vertex ends there.
-    const double length = edge.end - edge.begin, tolerance = 1e-12 / length;
-    double zone_begin = (scene.zone_begin - edge.begin) / length;
-    double zone_end = (scene.zone_end - edge.begin) / length;
-    zone_begin = zone_begin < tolerance ? 0 : zone_begin;
-    zone_end = zone_end > 1 - tolerance ? 1 : zone_end;
+    // The part of the edge in the zone, in terms of t.
+    const double length = edge.end - edge.begin;
+    const bool begins_before = scene.zone_begin - edge.begin <= Scene::angular_round_off;
+    const bool ends_behind = edge.end - scene.zone_end <= Scene::angular_round_off;
+    const double zone_begin = begins_before ? 0 : (scene.zone_begin - edge.begin) / length;
+    const double zone_end = ends_behind ? 1 : (scene.zone_end - edge.begin) / length;
     if (n_active == face.nodes.size() && zone_begin == 0 && zone_end == 1)
       edge.pieces = {{Piece::Kind::touching, 0, 1}};
     else if (zone_begin < zone_end)

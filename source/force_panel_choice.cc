@@ -21,6 +21,9 @@ namespace {
 constexpr double round_off = 1e-13; ///< of f_0
 constexpr double smallest = 4e-15;  ///< panel, over its distance from the origin
 
+/// Sizes and places of cells are often those of panels, and round-off shall not decide.
+constexpr double slight = 1e-9; ///< over sizes of panels
+
 class Chooser {
 public:
   Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments)
@@ -114,7 +117,8 @@ const std::vector<double>& Chooser::cell_centers(unsigned int direction) {
                                                        std::vector<double>(own.begin(), own.end())))
       all.insert(all.end(), some.begin(), some.end());
     std::sort(all.begin(), all.end());
-    const auto are_same = [](double x, double y) { return y - x < 1e-12 * y; };
+    const double least = slight * (all.back() - all.front());
+    const auto are_same = [least](double x, double y) { return y - x <= least; };
     all.erase(std::unique(all.begin(), all.end(), are_same), all.end());
   }
   return all;
@@ -125,7 +129,7 @@ void Chooser::add(unsigned int i) {
   panel.judge(scene);
   const Tensor<1, 2> size = panel.high - panel.low;
   for (const unsigned int direction : {0, 1})
-    if (size[1 - direction] < 2 * largest_cell[1 - direction] &&
+    if (size[1 - direction] < (1 - slight) * 2 * largest_cell[1 - direction] &&
         panel.squared_alone(scene, usual) > negligible_squared) {
       const auto& centers = cell_centers(direction);
       const double roundings = 1e-14 * panel.high[direction];
@@ -157,8 +161,9 @@ void Chooser::halve_where_fine() {
     if (16 * size[direction] / all[direction] < size[1 - direction] / all[1 - direction])
       direction = 1 - direction; // does not reach single cells along a jump
     const double middle = panels[panels.halve(scene, i, direction)].high[direction];
-    const auto outer = std::partition(
-        whole.begin, whole.end, [&](const Point<2>& center) { return center[direction] < middle; });
+    const auto outer = std::partition(whole.begin, whole.end, [&](const Point<2>& center) {
+      return center[direction] < middle + slight * size[direction];
+    });
     const unsigned int n_inner =
         Utilities::MPI::sum<unsigned int>(outer - whole.begin, triangulation.get_communicator());
     cells.push_back({whole.begin, outer, n_inner});

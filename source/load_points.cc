@@ -70,7 +70,8 @@ std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
       continue;
     const Point<2> low = cell->vertex(0);
     const Tensor<1, 2> size = cell->vertex(3) - low;
-    const Tensor<1, 2> covered = double(ForcePanel::n_points) / gauss.size() * size;
+    // Panels of just this size are common, and round-off shall not decide.
+    const Tensor<1, 2> covered = (1 + 1e-9) * ForcePanel::n_points / gauss.size() * size;
     const auto& lines = known_lines.at(low[1], cell->vertex(3)[1], [&] {
       std::vector<Line> made;
       for (const auto& point : gauss.get_points())

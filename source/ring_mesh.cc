@@ -98,7 +98,7 @@ bool can_be_halved(const std::vector<double>& places) {
     return false;
   for (std::size_t i = 1; i < places.size(); i += 2)
     if (std::abs(2 * places[i] - places[i - 1] - places[i + 1]) >
-        1e-13 * (std::abs(places[i]) + places.back() - places.front()))
+        1e-15 * (std::abs(places[i]) + places.back() - places.front()))
       return false;
   return true;
 }

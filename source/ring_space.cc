@@ -146,11 +146,8 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
     faces.push_back(std::move(face));
   }
 
-  // Angles carry round-off of a few units in the last place.
-  const double tolerance = 1e-13;
   for (unsigned int i = 0; i < surface.size(); ++i)
-    if (surface[i].angle >= scene.zone_begin - tolerance &&
-        surface[i].angle <= scene.zone_end + tolerance) {
+    if (scene.is_in_zone(surface[i].angle)) {
       if (contact.empty())
         first_contact = i;
       contact.push_back(surface[i]);

@@ -128,6 +128,24 @@ TEST_F(Processes, SolveOtherScenesLikeOne) {
                                "force=0.1*cos(z)*r' --set 'Cylinder/Angular velocity=1' --set "
                                "'Mesh/Wanted relative error=0.1' --set 'Mesh/Degree=2'",
                        {3});
+  // Whose ends are nearly, but not but for round-off, at places of the halved mesh.
+  expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-4.prm' --set 'Mesh/Degree=2' --set "
+                       "'Mesh/Radial cells=8' --set 'Mesh/Angular cells=96' --set "
+                       "'Road/Contact zone=4.450589592586, 4.9741883681836'",
+                       {2});
+}
+
+// Jumps, of which some are seen at the points of the load only.
+TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
+  const std::string force = " --set 'Cylinder/Radial force=floor(8*r)/10"
+                            "+if((r-0.8)^2+(z-1.4)^2<0.0025,1,0)+if(abs(z-4.52)<0.03,1,0)'"
+                            " --set 'Mesh/Degree=2'";
+  expect_answer_of_one(
+      scene + force + " --set 'Mesh/Radial cells=12' --set 'Mesh/Angular cells=180'", {3});
+  expect_answer_of_one(scene + force +
+                           " --set 'Mesh/Radial cells=4' --set 'Mesh/Angular cells=40'"
+                           " --set 'Mesh/Adaptive cycles=6'",
+                       {4});
 }
 
 TEST_F(Processes, TellBadInputOnce) {
