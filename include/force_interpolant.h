@@ -47,7 +47,8 @@ public:
   /// drho.
   double error() const;
 
-  /// Of which errors of the load are (negligible_error_of_force()).
+  /// An error of the load that is small beside the mesh's own, negligible_error_of_force(); 0 when
+  /// f_0 is exact.
   double negligible() const { return negligible_error; }
 
 private:

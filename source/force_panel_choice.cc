@@ -28,6 +28,7 @@ class Chooser {
 public:
   Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments)
       : panels(scene), space(space), scene(scene), moments(moments) {
+    find_cells();
     halve_where_fine();
     for (unsigned int i = 0; i < panels.size(); ++i)
       if (panels.is_part(i))
@@ -73,8 +74,7 @@ private:
   /// A part, to be judged.
   void add(unsigned int i);
 
-  /// The centers of this process' cells, with angles in [0, 2 pi).
-  std::vector<Point<2>> own_centers();
+  void find_cells();
 
   /// The coordinates of the centers of all cells, in order.
   const std::vector<double>& cell_centers(unsigned int direction);
@@ -87,31 +87,30 @@ private:
   double negligible_squared = 0, allowed_squared = 0;
   /// A force of the usual size that is not seen at all.
   ForcePanel::Missed usual = {std::numeric_limits<double>::infinity(), 0, 0};
-  Tensor<1, 2> largest_cell; ///< in each direction
+  std::vector<Point<2>> own_centers; ///< of this process' cells, with angles in [0, 2 pi)
+  Tensor<1, 2> largest_cell;         ///< in each direction
   std::vector<double> coordinates[2];
 };
 
-std::vector<Point<2>> Chooser::own_centers() {
-  std::vector<Point<2>> centers;
+void Chooser::find_cells() {
   for (const auto& cell : space.dof_handler().get_triangulation().active_cell_iterators())
     if (cell->is_locally_owned()) {
       const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
       const Point<2> center = cell->vertex(0) + size / 2;
       const double period = center[1] < 2 * numbers::PI ? 0 : 2 * numbers::PI;
-      centers.emplace_back(center[0], center[1] - period);
+      own_centers.emplace_back(center[0], center[1] - period);
       for (const unsigned int direction : {0, 1})
         largest_cell[direction] = std::max(largest_cell[direction], size[direction]);
     }
   for (const unsigned int direction : {0, 1})
     largest_cell[direction] = Utilities::MPI::max(largest_cell[direction], space.communicator());
-  return centers;
 }
 
 const std::vector<double>& Chooser::cell_centers(unsigned int direction) {
   std::vector<double>& all = coordinates[direction];
   if (all.empty()) {
     std::unordered_set<double> own;
-    for (const Point<2>& center : own_centers())
+    for (const Point<2>& center : own_centers)
       own.insert(center[direction]);
     for (const auto& some : Utilities::MPI::all_gather(space.communicator(),
                                                        std::vector<double>(own.begin(), own.end())))
@@ -144,14 +143,13 @@ void Chooser::add(unsigned int i) {
 
 void Chooser::halve_where_fine() {
   const auto& triangulation = space.dof_handler().get_triangulation();
-  std::vector<Point<2>> centers = own_centers();
   const unsigned int n_cells = triangulation.n_global_active_cells();
   const double most_cells = n_cells * std::max(1. / 32, 128. / space.n_unknowns());
   struct Cells {
     std::vector<Point<2>>::iterator begin, end; ///< of the own centers on a panel
     unsigned int n_all;                         ///< on all processes
   };
-  std::vector<Cells> cells = {{centers.begin(), centers.end(), n_cells}};
+  std::vector<Cells> cells = {{own_centers.begin(), own_centers.end(), n_cells}};
   for (unsigned int i = 0; i < panels.size(); ++i) {
     const Cells whole = cells[i];
     if (whole.n_all <= most_cells)

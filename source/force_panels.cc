@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rollwave {
 
@@ -20,12 +21,12 @@ unsigned int ForcePanels::halve(const Scene& scene, unsigned int number, unsigne
   const ForcePanel& whole = nodes[number].panel;
   Point<2> low = whole.low, high = whole.high;
   low[direction] = high[direction] = (low[direction] + high[direction]) / 2;
-  const ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
+  ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
   const unsigned int first_half = nodes.size();
   nodes[number].first_half = first_half;
   nodes[number].direction = direction;
-  nodes.push_back({inner});
-  nodes.push_back({outer});
+  nodes.push_back({std::move(inner)});
+  nodes.push_back({std::move(outer)});
   return first_half;
 }
 
