@@ -37,9 +37,9 @@ struct HypreVector {
 
 /// The number of the first own row: where the processes before have none, it is not in the map.
 HYPRE_BigInt first_row(HYPRE_Int n_rows, MPI_Comm communicator) {
-  HYPRE_BigInt rows = n_rows, rows_before = 0;
-  MPI_Exscan(&rows, &rows_before, 1, HYPRE_MPI_BIG_INT, MPI_SUM, communicator);
-  return rows_before;
+  HYPRE_BigInt rows = n_rows, rows_so_far = 0;
+  MPI_Scan(&rows, &rows_so_far, 1, HYPRE_MPI_BIG_INT, MPI_SUM, communicator);
+  return rows_so_far - rows;
 }
 
 } // namespace
@@ -61,22 +61,32 @@ struct AlgebraicMultigrid::Hypre {
     HYPRE_IJMatrixCreate(communicator, first, first + n_rows - 1, first, first + n_rows - 1,
                          &matrix);
     HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
-    std::vector<HYPRE_Int> sizes(n_rows);
-    for (HYPRE_Int i = 0; i < n_rows; ++i)
-      sizes[i] = source.NumMyEntries(i);
-    HYPRE_IJMatrixSetRowSizes(matrix, sizes.data());
-    HYPRE_IJMatrixInitialize(matrix);
+    // Known sizes of both parts of a row spare hypre a copy of the matrix.
     std::vector<HYPRE_BigInt> columns;
-    for (HYPRE_Int i = 0; i < n_rows; ++i) {
-      int n = 0;
-      int* local_columns = nullptr;
-      double* values = nullptr;
-      source.ExtractMyRowView(i, n, values, local_columns);
-      columns.resize(n);
-      for (int k = 0; k < n; ++k)
-        columns[k] = source.ColMap().GID(local_columns[k]);
-      HYPRE_IJMatrixSetValues(matrix, 1, &sizes[i], &rows[i], columns.data(), values);
-    }
+    const auto visit_rows = [&](const auto& visit) {
+      for (HYPRE_Int i = 0; i < n_rows; ++i) {
+        HYPRE_Int n = 0;
+        int* local_columns = nullptr;
+        double* values = nullptr;
+        source.ExtractMyRowView(i, n, values, local_columns);
+        columns.resize(n);
+        for (int k = 0; k < n; ++k)
+          columns[k] = source.ColMap().GID(local_columns[k]);
+        visit(i, n, values);
+      }
+    };
+    std::vector<HYPRE_Int> own_sizes(n_rows), foreign_sizes(n_rows);
+    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* /*values*/) {
+      own_sizes[i] = std::count_if(columns.begin(), columns.end(), [this](HYPRE_BigInt column) {
+        return column >= first && column < first + n_rows;
+      });
+      foreign_sizes[i] = n - own_sizes[i];
+    });
+    HYPRE_IJMatrixSetDiagOffdSizes(matrix, own_sizes.data(), foreign_sizes.data());
+    HYPRE_IJMatrixInitialize(matrix);
+    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* values) {
+      HYPRE_IJMatrixSetValues(matrix, 1, &n, &rows[i], columns.data(), values);
+    });
     HYPRE_IJMatrixAssemble(matrix);
     HYPRE_IJMatrixGetObject(matrix, reinterpret_cast<void**>(&parallel_matrix));
     HYPRE_BoomerAMGCreate(&cycle);
