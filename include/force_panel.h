@@ -79,8 +79,9 @@ struct ForcePanel {
   /// f_0 becomes the mean of f.
   void flatten();
 
-  /// What is left out of f if m has this mean and, beside it, this mean square.
-  Missed missed_if(const Scene& scene, double mean, double mean_square) const;
+  /// Takes m for as large as it was seen elsewhere, with this mean and this mean square, which is
+  /// more than the panel's points say.
+  void take_for(const Scene& scene, double mean, double mean_square);
 
   /// The square of the bound as if nothing were left out elsewhere.
   double squared_alone(const Scene& scene, const Missed& missed) const;
@@ -100,6 +101,9 @@ private:
   /// What is left out by f_0, and would be by the mean of f.
   void weigh(const Scene& scene, double mean);
   Missed weigh(const Scene& scene, const MeanSquares& squares, double mean) const;
+
+  /// Where more is left out, along either direction.
+  Missed weigh(const Scene& scene, const MeanSquares& squares, double mean, double more) const;
 };
 
 /// C^2 of Friedrichs' inequality ||w|| <= C |w|.

@@ -15,10 +15,10 @@ struct MissedAtLoadPoints {
   double mean = 0, mean_square = 0;
 };
 
-/// For each panel, none where it is not a part. The same on all processes.
+/// For each panel from number @p first on, none where it is not a part. The same on all processes.
 /// @param moments r f at the points of the load (Load)
 std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
-                                                      const ForcePanels& panels,
+                                                      const ForcePanels& panels, unsigned int first,
                                                       const std::vector<double>& moments);
 
 } // namespace rollwave

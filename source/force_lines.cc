@@ -14,14 +14,14 @@ namespace {
 
 constexpr unsigned int n = ForcePiece::n_coefficients;
 
-Quadrature<1> rule_between(const std::vector<double>& ends, unsigned int n_points) {
-  constexpr unsigned int n_on_short = 3;
+Quadrature<1> rule_between(const std::vector<double>& ends, const Quadrature<1>& on_long) {
+  static const QGauss<1> on_short(3);
   constexpr double short_part = 0.01;
   std::vector<Point<1>> points;
   std::vector<double> weights;
   for (unsigned int part = 0; part + 1 < ends.size(); ++part) {
     const double share = ends[part + 1] - ends[part];
-    const QGauss<1> gauss(share < short_part ? n_on_short : n_points);
+    const Quadrature<1>& gauss = share < short_part ? on_short : on_long;
     for (unsigned int q = 0; q < gauss.size(); ++q) {
       points.emplace_back(ends[part] + share * gauss.point(q)[0]);
       weights.push_back(share * gauss.weight(q));
@@ -73,7 +73,7 @@ ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
   Quadrature<1> exact;
   std::vector<ForceColumn> exact_columns;
   const auto make_exact = [&] {
-    exact = rule_between(ends, within_panel.fine.size());
+    exact = rule_between(ends, within_panel.fine);
     exact_columns = force.columns(begin, end, exact);
   };
   double missed;

@@ -212,15 +212,20 @@ ForcePanel::Missed ForcePanel::weigh(const Scene& scene, const MeanSquares& squa
   return {mean, area() * local + (is_local ? of_z : 0), is_local ? 0 : of_z};
 }
 
-ForcePanel::Missed ForcePanel::missed_if(const Scene& scene, double mean,
-                                         double mean_square) const {
-  const double more = std::max(0., mean_square - squares.sum());
+ForcePanel::Missed ForcePanel::weigh(const Scene& scene, const MeanSquares& squares, double mean,
+                                     double more) const {
   MeanSquares more_along_r = squares, more_along_z = squares;
   more_along_r.of_r += more;
   more_along_z.of_z += more;
   const Missed along_r = weigh(scene, more_along_r, mean),
                along_z = weigh(scene, more_along_z, mean);
   return along_r.varying_squared() > along_z.varying_squared() ? along_r : along_z;
+}
+
+void ForcePanel::take_for(const Scene& scene, double mean, double mean_square) {
+  const double more = std::max(0., mean_square - squares.sum());
+  missed = weigh(scene, squares, std::max(missed.mean, std::abs(mean)), more);
+  beside_mean = weigh(scene, squares_beside_mean, std::max(beside_mean.mean, std::abs(mean)), more);
 }
 
 double ForcePanel::squared_alone(const Scene& scene, const Missed& left_out) const {

@@ -42,7 +42,6 @@ public:
     do
       halve_the_worst(panels.size() + 3 * (most_panels - panels.size()) / 4);
     while (quarter_where_load_points_see_more());
-    const unsigned int n_looked_at = panels.size();
     halve_the_worst(most_panels);
     if (panels.size() > n_looked_at)
       look_at_load_points();
@@ -63,7 +62,7 @@ private:
   /// @returns whether there were such panels.
   bool quarter_where_load_points_see_more();
 
-  /// Panels miss what the points of the load say, if that is more.
+  /// Panels miss what the points of the load say, if that is more. Only those not looked at before.
   /// @returns those on which these see what its own points do not, with the square of the bound.
   Queue look_at_load_points();
 
@@ -83,7 +82,7 @@ private:
   const Scene& scene;
   const std::vector<double>& moments;
   Queue worst;
-  unsigned int most_panels = 0;
+  unsigned int most_panels = 0, n_looked_at = 0;
   double negligible_squared = 0, allowed_squared = 0;
   /// A force of the usual size that is not seen at all.
   ForcePanel::Missed usual = {std::numeric_limits<double>::infinity(), 0, 0};
@@ -191,14 +190,15 @@ void Chooser::halve_the_worst(unsigned int most) {
 }
 
 Chooser::Queue Chooser::look_at_load_points() {
-  const auto at_load_points = missed_at_load_points(space, panels, moments);
+  const unsigned int first = std::exchange(n_looked_at, panels.size());
+  const auto at_load_points = missed_at_load_points(space, panels, first, moments);
   Queue seen_badly;
-  for (unsigned int i = 0; i < panels.size(); ++i) {
-    const auto& [n_points, mean, mean_square] = at_load_points[i];
+  for (unsigned int i = first; i < panels.size(); ++i) {
+    const auto& [n_points, mean, mean_square] = at_load_points[i - first];
     ForcePanel& panel = panels[i];
     if (n_points == 0 || mean_square <= 4 * panel.mean_square())
       continue;
-    panel.missed = panel.missed_if(scene, std::max(panel.missed.mean, std::abs(mean)), mean_square);
+    panel.take_for(scene, mean, mean_square);
     const double error_squared = panel.squared_alone(scene, panel.missed);
     if (error_squared > negligible_squared && is_divisible(panel, 0) && is_divisible(panel, 1))
       seen_badly.push({error_squared, i});

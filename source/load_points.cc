@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace rollwave {
@@ -19,7 +20,8 @@ bool is_within(double begin, double x, double end) {
   return begin + roundings < x && x < end - roundings;
 }
 
-/// f_0 on a line z = const, and which panels it crosses.
+/// f_0 on a line z = const, and which panels it crosses; nothing where these are none of those
+/// looked at.
 struct Line {
   struct Crossed {
     unsigned int number;
@@ -27,8 +29,10 @@ struct Line {
     bool is_within; ///< the line
   };
 
-  Line(const ForcePanels& panels, double z) {
+  Line(const ForcePanels& panels, unsigned int first, double z) {
     const auto numbers = panels.on(z, 0);
+    if (std::all_of(numbers.begin(), numbers.end(), [first](auto i) { return i < first; }))
+      return;
     column = panels.column(numbers, z);
     for (const unsigned int i : numbers) {
       const double begin = panels[i].low[1], end = panels[i].high[1];
@@ -58,12 +62,12 @@ struct Legendre {
 } // namespace
 
 std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
-                                                      const ForcePanels& panels,
+                                                      const ForcePanels& panels, unsigned int first,
                                                       const std::vector<double>& moments) {
   const QGauss<1> gauss(space.dof_handler().get_fe().degree + 1);
   IntervalMap<std::vector<Line>> known_lines;
-  IntervalMap<std::vector<Legendre>> known_legendre; // at the radii of a radial interval
-  std::vector<double> sums(4 * panels.size());       // of one, the area, m and m^2
+  IntervalMap<std::vector<Legendre>> known_legendre;     // at the radii of a radial interval
+  std::vector<double> sums(4 * (panels.size() - first)); // of one, the area, m and m^2
   auto moment = moments.begin();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -75,13 +79,17 @@ std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
     const auto& lines = known_lines.at(low[1], cell->vertex(3)[1], [&] {
       std::vector<Line> made;
       for (const auto& point : gauss.get_points())
-        made.emplace_back(panels, std::fmod(low[1] + size[1] * point[0], 2 * numbers::PI));
+        made.emplace_back(panels, first, std::fmod(low[1] + size[1] * point[0], 2 * numbers::PI));
       return made;
     });
     auto& legendre = known_legendre.at(low[0], cell->vertex(3)[0],
                                        [&] { return std::vector<Legendre>(gauss.size()); });
     for (unsigned int p = 0; p < gauss.size(); ++p) {
       const auto& [column, crossed] = lines[p];
+      if (column.empty()) {
+        moment += gauss.size();
+        continue;
+      }
       unsigned int piece = piece_at(column, low[0], 0);
       for (unsigned int q = 0; q < gauss.size(); ++q) {
         const double at_point = *moment++;
@@ -91,14 +99,14 @@ std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
         const auto& [begin, end, coefficients, outside] = column[piece];
         const auto& [number, length, z_is_within] = crossed[piece];
         const bool is_closer = covered[0] < end - begin || covered[1] < length;
-        if (!is_closer || !z_is_within || !is_within(begin, r, end))
+        if (number < first || !is_closer || !z_is_within || !is_within(begin, r, end))
           continue;
         const auto& values = legendre[q].at(r, column[piece]);
         double missed = at_point;
         for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k)
           missed -= coefficients[k] * values[k];
         const double area = size[0] * size[1] * gauss.weight(p) * gauss.weight(q);
-        double* const sum = &sums[4 * number];
+        double* const sum = &sums[4 * (number - first)];
         sum[0] += 1;
         sum[1] += area;
         sum[2] += area * missed;
@@ -107,8 +115,8 @@ std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
     }
   }
   Utilities::MPI::sum(sums, space.communicator(), sums);
-  std::vector<MissedAtLoadPoints> missed(panels.size());
-  for (unsigned int i = 0; i < panels.size(); ++i)
+  std::vector<MissedAtLoadPoints> missed(panels.size() - first);
+  for (unsigned int i = 0; i < missed.size(); ++i)
     if (const double* const sum = &sums[4 * i]; sum[0] > 0)
       missed[i] = {static_cast<unsigned int>(sum[0]), sum[2] / sum[1], sum[3] / sum[1]};
   return missed;

@@ -43,11 +43,25 @@ Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNod
   return pressure;
 }
 
+/// Adds what else there is to say.
+void add_text(std::string& text, const std::string& more) {
+  text += (text.empty() || more.empty() ? "" : "; ") + more;
+}
+
+/// A certificate that does not fit into memory leaves the solution as it is, with a shortfall.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
-  solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
-                                 on_mesh.displacement, solution.system, solution.result.work);
-  solution.result.certified = solution.certificate->error;
-  solution.result.cycles.back().certified = solution.certificate->error.relative;
+  Result& result = solution.result;
+  try {
+    solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
+                                   on_mesh.displacement, solution.system, result.work);
+  } catch (const NotEnoughMemory& shortage) {
+    solution.system = {};
+    add_text(result.shortfall, "the error could not be certified: " + shortage.reason +
+                                   "; use fewer unknowns, or set Certificate/Error bound to false");
+    return;
+  }
+  result.certified = solution.certificate->error;
+  result.cycles.back().certified = solution.certificate->error.relative;
 }
 
 /// eta_K of each active cell.
@@ -76,24 +90,29 @@ bool refine(const Scene& scene, const std::vector<double>& indicators, const Par
   return true;
 }
 
-/// What of the wanted error is missing, and why.
+/// What of the wanted error is missing, if any is wanted.
+std::string error_text(const Parameters& parameters, const Result& result) {
+  std::ostringstream text;
+  if (const double wanted = parameters.mesh.wanted_relative_error; wanted > 0 && result.certified)
+    text << "the certified relative error is " << result.certified->relative << ", wanted "
+         << wanted;
+  return text.str();
+}
+
+/// Why not all was reached, and what to do.
 std::string shortfall_text(const Parameters& parameters, const Solution& solution) {
   const Result& result = solution.result;
-  std::ostringstream text;
-  if (!result.shortfall.empty())
-    text << result.shortfall;
-  else if (result.is_interrupted)
-    text << "interrupted after " << result.cycles.size()
-         << (result.cycles.size() == 1 ? " mesh" : " meshes");
-  if (const double wanted = parameters.mesh.wanted_relative_error; wanted > 0)
-    text << (result.is_interrupted ? "; " : "") << "the certified relative error is "
-         << result.certified->relative << ", wanted " << wanted;
+  std::string text = result.shortfall;
+  if (text.empty() && result.is_interrupted)
+    text = "interrupted after " + std::to_string(result.cycles.size()) +
+           (result.cycles.size() == 1 ? " mesh" : " meshes");
+  add_text(text, error_text(parameters, result));
   if (is_at_finest_level(*solution.triangulation))
-    text << "; the smallest cells cannot be cut again: raise Mesh/Radial cells and Mesh/Angular "
-            "cells, or want less";
-  else if (!result.is_interrupted)
-    text << "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less";
-  return text.str();
+    add_text(text, "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
+                   "Mesh/Angular cells, or want less");
+  else if (result.shortfall.empty() && !result.is_interrupted)
+    add_text(text, "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
+  return text;
 }
 
 std::string residual_text(const Residuals& residuals) {
@@ -135,36 +154,20 @@ Parameters coarser(Parameters parameters) {
 enum class Keep { nothing, everything };
 
 Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
-             Solution previous, Keep keep) {
-  check_simulation(parameters, count_processes(communicator));
+             Solution previous, Keep keep);
+
+/// Solves and refines until what @p parameters want is reached, or cannot be. @p solution has a
+/// mesh, and a space on it if it continues another.
+void solve_and_refine(const Scene& scene, const Parameters& parameters, const Result& before,
+                      unsigned int most_cycles, MPI_Comm communicator, Keep keep,
+                      Solution& solution) {
   const auto& mesh = parameters.mesh;
   const bool certifies = parameters.certificate.error_bound;
   const bool wants_error = mesh.wanted_relative_error > 0;
-  const unsigned int most_cycles =
-      mesh.adaptive_cycles.value_or(wants_error ? std::numeric_limits<unsigned int>::max() : 0);
-
-  Solution solution;
-  solution.triangulation = std::move(previous.triangulation);
-  solution.space = std::move(previous.space);
-  solution.system = std::move(previous.system);
-  const bool continues = solution.triangulation != nullptr;
-  // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
-  // solved before.
-  Result before = most_cycles > 0 ? std::move(previous.result) : Result();
-  if (before.contact_rows.empty() && begins_coarser(parameters, communicator))
-    try {
-      before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
-      solution.result.work = before.work;
-    } catch (const BadInput&) {
-      // Too coarse for this scene, such as for a short zone: then without a start.
-    }
-  if (!continues) {
-    const Work::Phase phase(solution.result.work, "mesh");
-    solution.triangulation = make_ring_mesh(scene, parameters, communicator);
-  }
+  const bool continues = solution.space != nullptr;
+  Result& result = solution.result;
   for (unsigned int cycle = 0;; ++cycle) {
-    Result& result = solution.result;
-    if (cycle > 0 || !continues) {
+    if (!solution.space) {
       const Work::Phase phase(result.work, "space");
       solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
     }
@@ -178,15 +181,17 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
                       solution.system, result.work);
     measure(scene, *solution.space, on_mesh, result);
+    result.is_interrupted = !result.shortfall.empty();
     solution.system.is_kept = is_used_again;
     if (!is_used_again)
       solution.system.stiffness.solver.reset();
     if (certifies && (is_last || wants_error))
       certify_solution(scene, on_mesh, solution);
-    const bool is_reached = wants_error && result.certified->relative <= mesh.wanted_relative_error;
-    const bool is_finished = is_reached || is_last;
-    result.is_interrupted =
-        !result.shortfall.empty() || (!is_finished && is_interrupted(communicator));
+    const bool is_reached =
+        wants_error && result.certified && result.certified->relative <= mesh.wanted_relative_error;
+    const bool is_finished = is_reached || is_last || !result.shortfall.empty();
+    if (!is_finished)
+      result.is_interrupted = is_interrupted(communicator);
     if (!is_finished && !result.is_interrupted) {
       const std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
       if (refine(scene, indicators, parameters, continues && cycle == 0, solution)) {
@@ -197,21 +202,83 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
         continue;
       }
     }
-    if (certifies && !result.certified)
+    if (certifies && !is_last && !wants_error)
       certify_solution(scene, on_mesh, solution);
     if (result.is_interrupted || (wants_error && !is_reached))
       result.shortfall = shortfall_text(parameters, solution);
-    else if (result.residuals.largest() > wanted_residual &&
+    else if (result.shortfall.empty() && result.residuals.largest() > wanted_residual &&
              parameters.contact.method == ContactMethod::active_set)
       result.shortfall = residual_text(result.residuals);
-    if (parameters.certificate.load_bounds)
+    if (parameters.certificate.load_bounds && result.certified)
       result.load_bounds =
           bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);
     if (keep == Keep::nothing)
       solution.system = {};
     solution.displacement = std::move(on_mesh.displacement);
-    return solution;
+    return;
   }
+}
+
+/// Solves anew, on no larger meshes than the last of @p result, after one that memory was not
+/// enough for, for this @p reason.
+Solution run_within_memory(const Scene& scene, Parameters parameters, MPI_Comm communicator,
+                           const Result& result, const std::string& reason, Keep keep) {
+  parameters.mesh.most_unknowns = result.cycles.back().dofs;
+  Solution solution = run(scene, parameters, communicator, {}, keep);
+  for (const auto& [phase, seconds] : result.work.seconds())
+    solution.result.work.add_seconds(phase, seconds);
+  if (!solution.result.is_interrupted) {
+    std::string text = "a mesh of more than " + std::to_string(result.cycles.back().dofs) +
+                       " unknowns could not be solved: " + reason +
+                       "; lower Mesh/Most unknowns to that, or want less";
+    const bool lacks_certificate = parameters.certificate.error_bound && !solution.result.certified;
+    add_text(text, lacks_certificate ? solution.result.shortfall
+                                     : error_text(parameters, solution.result));
+    solution.result.shortfall = text;
+  }
+  return solution;
+}
+
+Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
+             Solution previous, Keep keep) {
+  check_simulation(parameters, count_processes(communicator));
+  const auto& mesh = parameters.mesh;
+  const bool wants_error = mesh.wanted_relative_error > 0;
+  const unsigned int most_cycles =
+      mesh.adaptive_cycles.value_or(wants_error ? std::numeric_limits<unsigned int>::max() : 0);
+
+  Solution solution;
+  solution.triangulation = std::move(previous.triangulation);
+  solution.space = std::move(previous.space);
+  solution.system = std::move(previous.system);
+  // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
+  // solved before.
+  Result before = most_cycles > 0 ? std::move(previous.result) : Result();
+  if (before.contact_rows.empty() && begins_coarser(parameters, communicator))
+    try {
+      before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
+      solution.result.work = before.work;
+    } catch (const BadInput&) {
+      // Too coarse for this scene, such as for a short zone: then without a start.
+    }
+  if (!solution.triangulation) {
+    const Work::Phase phase(solution.result.work, "mesh");
+    solution.triangulation = make_ring_mesh(scene, parameters, communicator);
+  }
+  std::string reason;
+  try {
+    solve_and_refine(scene, parameters, before, most_cycles, communicator, keep, solution);
+    return solution;
+  } catch (const NotEnoughMemory& shortage) {
+    if (solution.result.cycles.empty())
+      throw;
+    reason = shortage.reason;
+  }
+  const Result result = std::move(solution.result);
+  solution.system = {};
+  solution.space.reset();
+  solution.triangulation.reset();
+  return run_within_memory(scene, parameters, communicator, result, reason, keep);
 }
 
 } // namespace

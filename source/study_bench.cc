@@ -58,6 +58,8 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters,
   const Solution solution = simulate(scene, read_parameters(settings), communicator);
   if (solution.result.is_interrupted)
     throw Interrupted(solution.result.shortfall);
+  if (!solution.result.certified)
+    throw NotSolved(solution.result.shortfall);
   std::ostringstream name;
   name << "an adaptive solution with " << solution.result.mesh.dofs
        << " unknowns, its own relative error certified to " << std::setprecision(2)
