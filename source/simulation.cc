@@ -3,6 +3,7 @@
 #include "errors.h"
 #include "interrupt.h"
 #include "load_bounds.h"
+#include "memory.h"
 #include "mesh_solution.h"
 #include "processes.h"
 #include "refinement.h"
@@ -49,12 +50,20 @@ void add_text(std::string& text, const std::string& more) {
 }
 
 /// A certificate that does not fit into memory leaves the solution as it is, with a shortfall.
-void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
+/// @throws NotEnoughMemory where an error is wanted and the mesh before was certified: this one
+/// then
+///         counts as not solved.
+void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
+                      Solution& solution) {
   Result& result = solution.result;
   try {
     solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
                                    on_mesh.displacement, solution.system, result.work);
   } catch (const NotEnoughMemory& shortage) {
+    if (wants_error && result.cycles.size() > 1) {
+      result.cycles.pop_back();
+      throw;
+    }
     solution.system = {};
     add_text(result.shortfall, "the error could not be certified: " + shortage.reason +
                                    "; use fewer unknowns, or set Certificate/Error bound to false");
@@ -186,7 +195,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     if (!is_used_again)
       solution.system.stiffness.solver.reset();
     if (certifies && (is_last || wants_error))
-      certify_solution(scene, on_mesh, solution);
+      certify_solution(scene, on_mesh, wants_error, solution);
     const bool is_reached =
         wants_error && result.certified && result.certified->relative <= mesh.wanted_relative_error;
     const bool is_finished = is_reached || is_last || !result.shortfall.empty();
@@ -203,7 +212,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
       }
     }
     if (certifies && !is_last && !wants_error)
-      certify_solution(scene, on_mesh, solution);
+      certify_solution(scene, on_mesh, wants_error, solution);
     if (result.is_interrupted || (wants_error && !is_reached))
       result.shortfall = shortfall_text(parameters, solution);
     else if (result.shortfall.empty() && result.residuals.largest() > wanted_residual &&
@@ -278,6 +287,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   solution.system = {};
   solution.space.reset();
   solution.triangulation.reset();
+  release_freed_memory();
   return run_within_memory(scene, parameters, communicator, result, reason, keep);
 }
 
