@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <vector>
 
 namespace rollwave {
@@ -190,16 +191,6 @@ double last_of_share(const std::vector<double>& values, const Weight& weight, do
   return Utilities::MPI::min(last, communicator);
 }
 
-/// Flags the cells for coarsening whose parents, of which they have the fraction @p left_to_part of
-/// the squares each, would have less than @p most.
-void flag_too_fine(Triangulation<2>& triangulation, const Vector<double>& squares, double most,
-                   double left_to_part) {
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->level() > 0 &&
-        squares(cell->active_cell_index()) < left_to_part * most)
-      cell->set_coarsen_flag();
-}
-
 /// Flags the cells with the largest values among those from @p last_marked on, so many that the
 /// mesh will have @p most_cells cells at most, or none when they would be too few to matter.
 /// Returns the value of the last.
@@ -253,6 +244,31 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
   squares = inherited;
 }
 
+/// Makes cells whole again, of which the parts have the fraction @p left_to_part of the squares
+/// each, that then have less than @p most. Level by level: whether a cell may then be whole depends
+/// on what its neighbours are, and not on their flags, which other processes do not know in full.
+/// None of the parts has become whole itself: the others may be on another process.
+void coarsen(Triangulation<2>& triangulation, Vector<double>& squares, double most,
+             double left_to_part) {
+  std::set<CellId> parts;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned() && cell->level() > 0 &&
+        squares(cell->active_cell_index()) < left_to_part * most)
+      parts.insert(cell->id());
+  for (int level = triangulation.n_global_levels() - 1; level > 0; --level) {
+    int n_flagged = 0;
+    for (const auto& cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->level() == level && parts.count(cell->id()) > 0) {
+        cell->set_coarsen_flag();
+        ++n_flagged;
+      }
+    if (Utilities::MPI::max(n_flagged, triangulation.get_communicator()) == 0)
+      continue;
+    prepare(triangulation);
+    execute(triangulation, squares, left_to_part);
+  }
+}
+
 /// Refines as refine_mesh(), without giving cells to other processes.
 bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
                      const std::vector<double>& indicators, Marking marking, double fraction,
@@ -281,10 +297,8 @@ bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
   bool is_changed = false;
   clear_flags(triangulation);
   if (coarsens) {
-    flag_too_fine(triangulation, squares, last_marked / 2, left_to_part);
-    prepare(triangulation);
     const auto n_before = triangulation.n_global_active_cells();
-    execute(triangulation, squares, left_to_part);
+    coarsen(triangulation, squares, last_marked / 2, left_to_part);
     is_changed = triangulation.n_global_active_cells() != n_before;
   }
   flag(triangulation, scene, squares, last_marked);

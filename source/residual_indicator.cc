@@ -3,6 +3,7 @@
 #include "constant_size.h"
 #include "interpolation.h"
 #include "parameters.h"
+#include "result.h"
 #include "ring_mesh.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -352,6 +353,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
   }
 
   const double b = scene.outer_radius;
+  const double negligible_gap = wanted_residual * contact.state.displacement.linfty_norm();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned() || !cell->at_boundary(1))
       continue;
@@ -382,8 +384,9 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
       if (n_contact == 0 || n_active == n || z < scene.zone_begin || z > scene.zone_end)
         continue;
       const double gap = scene.road(z) - displacement;
-      // The point may be an active node, where the gap is round-off of either sign.
-      if (gap >= -1e-13 * std::abs(displacement))
+      // The point may be an active node, where the gap is what linear solvers leave, of either
+      // sign.
+      if (gap >= -negligible_gap)
         square += exact_parts_weight * 2 * b * weight * std::max(0., lambda) * std::max(0., gap);
       else {
         const double steepness = slope - scene.road_slope(z);
