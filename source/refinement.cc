@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -49,8 +50,6 @@ unsigned int count_flagged(const Triangulation<2>& triangulation) {
 
 /// Gives the cells next to those of a process the flags that their own processes have set.
 void exchange_flags(Triangulation<2>& triangulation) {
-  if (is_alone(triangulation.get_communicator()))
-    return;
   GridTools::exchange_cell_data_to_ghosts<int, Triangulation<2>>(
       triangulation,
       [](const Cell& cell) -> std_cxx17::optional<int> {
@@ -66,17 +65,53 @@ void exchange_flags(Triangulation<2>& triangulation) {
       });
 }
 
+/// Flags cells so that those on both sides of the seam that touch in a vertex will be no more than
+/// a level apart: p4est sees to that, a mesh on one process does so for cells that share a line.
+/// @returns whether there were any.
+bool balance_seam(Triangulation<2>& triangulation) {
+  const auto level_to_come = [](const Cell& cell) {
+    return cell->level() + (cell->refine_flag_set() ? 1 : 0) - (cell->coarsen_flag_set() ? 1 : 0);
+  };
+  const auto visit_vertices = [&](const auto& visit) {
+    for (const auto& cell : triangulation.active_cell_iterators())
+      for (const unsigned int face : {2U, 3U})
+        if (cell->at_boundary(face))
+          for (const unsigned int vertex : {0U, 1U})
+            visit(cell, cell->face(face)->vertex(vertex)[0]);
+  };
+  std::map<double, int> finest;
+  visit_vertices(
+      [&](const Cell& cell, double r) { finest[r] = std::max(finest[r], level_to_come(cell)); });
+  bool is_changed = false;
+  visit_vertices([&](const Cell& cell, double r) {
+    if (finest[r] <= level_to_come(cell) + 1)
+      return;
+    is_changed = true;
+    if (cell->coarsen_flag_set())
+      cell->clear_coarsen_flag();
+    else
+      cell->set_refine_flag();
+  });
+  return is_changed;
+}
+
 /// Settles what is flagged, with the neighbours that must be cut too.
 void prepare(Triangulation<2>& triangulation) {
   for (const auto& cell : triangulation.active_cell_iterators())
     if (cell->level() == finest_level)
       cell->clear_refine_flag();
+  if (is_alone(triangulation.get_communicator())) {
+    do
+      triangulation.prepare_coarsening_and_refinement();
+    while (balance_seam(triangulation));
+    return;
+  }
   unsigned int n_before;
   do {
     n_before = count_flagged(triangulation);
     exchange_flags(triangulation);
     triangulation.prepare_coarsening_and_refinement();
-  } while (!is_alone(triangulation.get_communicator()) && count_flagged(triangulation) != n_before);
+  } while (count_flagged(triangulation) != n_before);
 }
 
 /// The number of active cells after the refinement that is flagged.
