@@ -178,5 +178,9 @@ int main() {
                        {key, "Mesh/Degree=" + std::to_string(degree),
                         "Mesh/Radial cells=" + std::to_string(radial),
                         "Mesh/Angular cells=" + std::to_string(angular)});
+    for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"})
+      benchmark_errors(paper_scenes()[0], "adaptive",
+                       {key, degree, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
+                        "Mesh/Adaptive cycles=1000", "Mesh/Most unknowns=60000"});
   }
 }
