@@ -50,9 +50,8 @@ void add_text(std::string& text, const std::string& more) {
 }
 
 /// A certificate that does not fit into memory leaves the solution as it is, with a shortfall.
-/// @throws NotEnoughMemory where an error is wanted and the mesh before was certified: this one
-/// then
-///         counts as not solved.
+/// Where an error is wanted and the mesh before was certified, this one counts as not solved.
+/// @throws NotEnoughMemory then.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
                       Solution& solution) {
   Result& result = solution.result;
@@ -232,12 +231,14 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
 /// enough for, for this @p reason.
 Solution run_within_memory(const Scene& scene, Parameters parameters, MPI_Comm communicator,
                            const Result& result, const std::string& reason, Keep keep) {
-  parameters.mesh.most_unknowns = result.cycles.back().dofs;
+  const unsigned int most_unknowns =
+      std::max<unsigned int>(result.cycles.back().dofs, std::lround(count_unknowns(parameters)));
+  parameters.mesh.most_unknowns = most_unknowns;
   Solution solution = run(scene, parameters, communicator, {}, keep);
   for (const auto& [phase, seconds] : result.work.seconds())
     solution.result.work.add_seconds(phase, seconds);
   if (!solution.result.is_interrupted) {
-    std::string text = "a mesh of more than " + std::to_string(result.cycles.back().dofs) +
+    std::string text = "a mesh of more than " + std::to_string(most_unknowns) +
                        " unknowns could not be solved: " + reason +
                        "; lower Mesh/Most unknowns to that, or want less";
     const bool lacks_certificate = parameters.certificate.error_bound && !solution.result.certified;
