@@ -148,6 +148,17 @@ TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
                        {4});
 }
 
+// Where cells on both sides touch in a vertex only.
+TEST_F(Processes, RefineAcrossTheSeamLikeOne) {
+  expect_answer_of_one(
+      scene + " --set Mesh/Degree=1 --set 'Cylinder/Angular velocity=0.9' --set Road/Distance=0.95 "
+              "--set 'Road/Contact zone=4.5, 5.1' --set 'Cylinder/Radial force=if(r<0.7123,1,0)' "
+              "--set 'Mesh/Radial cells=3' --set 'Mesh/Angular cells=20' --set 'Mesh/Global "
+              "refinements=1' --set 'Mesh/Adaptive cycles=3' --set Mesh/Indicator=kelly --set "
+              "'Mesh/Marked fraction=0.8' --set 'Mesh/Most unknowns=3000'",
+      {2, 3});
+}
+
 TEST_F(Processes, TellBadInputOnce) {
   for (const char* const setting : {"Mesh/Degre=1", "Solver/Kind=direct"}) {
     const Outcome outcome =
