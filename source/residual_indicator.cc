@@ -1,5 +1,6 @@
 #include "residual_indicator.h"
 
+#include "cell_lines.h"
 #include "constant_size.h"
 #include "interpolation.h"
 #include "parameters.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace rollwave {
@@ -57,49 +57,6 @@ std::vector<double> mapped(const std::vector<Point<1>>& points, double begin, do
     result.push_back(begin + (end - begin) * point[0]);
   return result;
 }
-
-/// The lines between cells, over the seam as well. A line that is shared by a coarser and two finer
-/// cells counts as the two lines of the finer ones.
-class Lines {
-public:
-  explicit Lines(const RingSpace& space) {
-    has_hanging_nodes = space.dof_handler().get_triangulation().has_hanging_nodes();
-    for (const auto& cell : space.dof_handler().active_cell_iterators())
-      for (const unsigned int f : {2U, 3U})
-        if (!cell->is_artificial() && cell->at_boundary(f))
-          seam[f - 2][{cell->face(f)->vertex(0)[0], cell->face(f)->vertex(1)[0]}] =
-              cell->face(f)->index();
-  }
-
-  /// The numbers of the lines that make up a face, one or two.
-  struct Parts {
-    unsigned int count;
-    std::array<int, 2> lines;
-  };
-
-  Parts parts(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) const {
-    const auto face = cell->face(f);
-    if (has_hanging_nodes && face->has_children())
-      return {2, {{face->child_index(0), face->child_index(1)}}};
-    if (f >= 2 && cell->neighbor_index(f) < 0) {
-      const double begin = face->vertex(0)[0], end = face->vertex(1)[0];
-      const auto& other = seam[3 - f];
-      if (const auto same = other.find({begin, end}); same != other.end())
-        return {1, {{f == 2 ? face->index() : same->second, -1}}};
-      // A process may know but one of them, and has then no cell beside this face.
-      const auto lower = other.lower_bound({begin, begin});
-      const auto upper = lower == other.end() ? lower : std::next(lower);
-      if (upper != other.end() && lower->first.first == begin && lower->first.second < end &&
-          upper->first.first == lower->first.second)
-        return {2, {{lower->second, upper->second}}};
-    }
-    return {1, {{face->index(), -1}}};
-  }
-
-private:
-  bool has_hanging_nodes;
-  std::array<std::map<std::pair<double, double>, int>, 2> seam;
-};
 
 /// u on one cell by its nodal values, the radial index running fastest.
 template <typename Size>
@@ -230,7 +187,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
     return u;
   };
 
-  const Lines lines(space);
+  const CellLines lines(space);
   const Polynomials::Legendre highest(degree);
   std::vector<double> highest_mode(n); // of the rule's points, with their weights
   for (unsigned int q = 0; q < n; ++q)

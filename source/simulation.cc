@@ -49,6 +49,12 @@ void add_text(std::string& text, const std::string& more) {
   text += (text.empty() || more.empty() ? "" : "; ") + more;
 }
 
+/// What is left out for want of memory, and the key that leaves it out from the start.
+std::string left_out_text(const std::string& what, const NotEnoughMemory& shortage,
+                          const std::string& key) {
+  return what + ": " + shortage.reason + "; use fewer unknowns, or set " + key + " to false";
+}
+
 /// A certificate that does not fit into memory leaves the solution as it is, with a shortfall.
 /// Where an error is wanted and the mesh before was certified, this one counts as not solved.
 /// @throws NotEnoughMemory then.
@@ -64,8 +70,8 @@ void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool want
       throw;
     }
     solution.system = {};
-    add_text(result.shortfall, "the error could not be certified: " + shortage.reason +
-                                   "; use fewer unknowns, or set Certificate/Error bound to false");
+    add_text(result.shortfall, left_out_text("the error could not be certified", shortage,
+                                             "Certificate/Error bound"));
     return;
   }
   result.certified = solution.certificate->error;
@@ -158,6 +164,13 @@ Parameters coarser(Parameters parameters) {
   return parameters;
 }
 
+/// How often the mesh is refined at most.
+unsigned int most_cycles(const Parameters& parameters) {
+  const auto& mesh = parameters.mesh;
+  return mesh.adaptive_cycles.value_or(
+      mesh.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
+}
+
 /// Which parts of the linear problems are kept when they have been used.
 enum class Keep { nothing, everything };
 
@@ -167,8 +180,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
 /// Solves and refines until what @p parameters want is reached, or cannot be. @p solution has a
 /// mesh, and a space on it if it continues another.
 void solve_and_refine(const Scene& scene, const Parameters& parameters, const Result& before,
-                      unsigned int most_cycles, MPI_Comm communicator, Keep keep,
-                      Solution& solution) {
+                      MPI_Comm communicator, Keep keep, Solution& solution) {
   const auto& mesh = parameters.mesh;
   const bool certifies = parameters.certificate.error_bound;
   const bool wants_error = mesh.wanted_relative_error > 0;
@@ -181,9 +193,9 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     }
     if (cycle == 0 && is_interrupted(communicator))
       throw Interrupted("interrupted before the first mesh was solved");
-    const bool is_last = cycle == most_cycles;
-    const bool is_used_again =
-        keep == Keep::everything || (parameters.certificate.load_bounds && most_cycles == 0);
+    const bool is_last = cycle == most_cycles(parameters);
+    const bool is_used_again = keep == Keep::everything ||
+                               (parameters.certificate.load_bounds && most_cycles(parameters) == 0);
     MeshSolution on_mesh =
         solve_on_mesh(scene, parameters, *solution.space,
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
@@ -218,8 +230,13 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
              parameters.contact.method == ContactMethod::active_set)
       result.shortfall = residual_text(result.residuals);
     if (parameters.certificate.load_bounds && result.certified)
-      result.load_bounds =
-          bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);
+      try {
+        result.load_bounds =
+            bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);
+      } catch (const NotEnoughMemory& shortage) {
+        add_text(result.shortfall, left_out_text("the load could not be enclosed", shortage,
+                                                 "Certificate/Load bounds"));
+      }
     if (keep == Keep::nothing)
       solution.system = {};
     solution.displacement = std::move(on_mesh.displacement);
@@ -252,10 +269,6 @@ Solution run_within_memory(const Scene& scene, Parameters parameters, MPI_Comm c
 Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
              Solution previous, Keep keep) {
   check_simulation(parameters, count_processes(communicator));
-  const auto& mesh = parameters.mesh;
-  const bool wants_error = mesh.wanted_relative_error > 0;
-  const unsigned int most_cycles =
-      mesh.adaptive_cycles.value_or(wants_error ? std::numeric_limits<unsigned int>::max() : 0);
 
   Solution solution;
   solution.triangulation = std::move(previous.triangulation);
@@ -263,7 +276,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   solution.system = std::move(previous.system);
   // On a mesh that is not refined the steps of a contact iteration shall not depend on what was
   // solved before.
-  Result before = most_cycles > 0 ? std::move(previous.result) : Result();
+  Result before = most_cycles(parameters) > 0 ? std::move(previous.result) : Result();
   if (before.contact_rows.empty() && begins_coarser(parameters, communicator))
     try {
       before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
@@ -277,7 +290,7 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   }
   std::string reason;
   try {
-    solve_and_refine(scene, parameters, before, most_cycles, communicator, keep, solution);
+    solve_and_refine(scene, parameters, before, communicator, keep, solution);
     return solution;
   } catch (const NotEnoughMemory& shortage) {
     if (solution.result.cycles.empty())
