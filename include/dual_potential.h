@@ -36,13 +36,13 @@ public:
   DualPotential(const RingSpace& space, SolverKind kind);
 
   /// The nodal values of psi, both sides of the seam having their own.
-  /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
+  /// @param constraints those of potential_constraints() for this scene
   /// @param force_load int G psi_z / r dr dz, nullptr when G is a function of r, which does no
   /// work: int psi_z dz = 0 for every periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
-                    const std::vector<EdgePressure>& pressures, const FieldVector* force_load,
-                    Work& work);
+                    const dealii::AffineConstraints<double>& constraints,
+                    const FieldVector* force_load, Work& work);
 
 private:
   void assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
@@ -60,8 +60,9 @@ private:
   std::unique_ptr<SymmetricSolver> solver;
 };
 
-/// What ties the nodal values of a potential: given on r = b by the pressures (as in
-/// DualPotential::solve()), growing in a period, continuous elsewhere.
+/// What ties the nodal values of a potential: given on r = b by the pressures, growing in a period,
+/// continuous elsewhere.
+/// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
 dealii::AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
                                                         const std::vector<EdgePressure>& pressures);
 

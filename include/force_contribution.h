@@ -9,14 +9,13 @@
 
 namespace rollwave {
 
-struct Scene;
-
 /// What a force that is no number contributes to the certificates of all scenes on one mesh with
 /// one speed, G = int_r^b rho f_0 drho.
 struct ForceContribution {
+  /// @param constraints those of potential_constraints(), with any pressures
   /// @param columns of Gauss' rule with degree + 2 points
-  ForceContribution(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
-                    ForceColumns& columns);
+  ForceContribution(const RingSpace& space, const dealii::AffineConstraints<double>& constraints,
+                    RadialShapesOfMesh& shapes, ForceColumns& columns);
 
   FieldVector to_potential;       ///< int G psi_z / r dr dz
   std::vector<double> to_bubbles; ///< int G P psi_i / r dr dz, i from the hub, for each active cell

@@ -3,6 +3,7 @@
 
 #include "force_panel_choice.h"
 #include "interpolation.h"
+#include "radial_extents.h"
 
 #include <vector>
 
@@ -27,16 +28,20 @@ public:
   /// The pieces of a line beyond the radius @p begin.
   ForceColumn column(double z, double begin = 0) const;
 
-  /// Those of the lines at the points of a rule for [begin, end].
+  /// Those of the lines at the points of a rule for [begin, end], at the radii of the cells that
+  /// have this angular interval.
   std::vector<ForceColumn> columns(double begin, double end,
                                    const dealii::Quadrature<1>& rule) const;
 
-  /// Where within ]begin, end[ panels end, in order: G is smooth in between.
-  std::vector<double> panel_ends(double begin, double end) const { return panels.ends(begin, end); }
+  /// Where within ]begin, end[ panels end, in order: G is smooth in between on these cells.
+  std::vector<double> panel_ends(double begin, double end) const;
 
-  /// A bound, for any radius, of the root mean square over z in [begin, end], by the finer rule, of
-  /// G less the polynomial that equals it at the points of the rule: from the coefficients. No
-  /// panel may end in between.
+  /// The radii of the cells that have an angular interval.
+  RadialExtent radii(double begin, double end) const { return extents.of(begin, end); }
+
+  /// A bound, for any radius of these cells, of the root mean square over z in [begin, end], by the
+  /// finer rule, of G less the polynomial that equals it at the points of the rule: from the
+  /// coefficients. No panel may end in between.
   double missed_along_z(double begin, double end, const FinerRule& rules) const;
 
   /// Whether f_0 is f itself.
@@ -53,6 +58,7 @@ public:
 
 private:
   const bool exact;
+  const RadialExtents extents;
   const ForcePanels panels;
   const double negligible_error;
 };

@@ -11,7 +11,8 @@ namespace rollwave {
 
 /**
  * Lines z = const of an angular interval [begin, end] at the points of a rule for integrals over it
- * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square.
+ * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square, at the radii of the cells that
+ * have this interval.
  *
  * That rule is Gauss' one, which takes G for the polynomial G_h along z that equals it at the
  * points, where a bound of what it misses, G - G_h, is negligible. Else it is exact: Gauss' rules
@@ -19,7 +20,7 @@ namespace rollwave {
  * they add nothing but that.
  */
 struct ForceLines {
-  /// @param negligible root mean square of G - G_h over z, for any radius
+  /// @param negligible root mean square of G - G_h over z, for any radius of these cells
   /// @param within_panel Gauss' rule, and one that is exact where no panel ends
   ForceLines(const ForceInterpolant& force, double begin, double end, const FinerRule& within_panel,
              double negligible);
@@ -29,14 +30,16 @@ struct ForceLines {
   dealii::Quadrature<1> rule;       ///< on [0, 1]
   std::vector<ForceColumn> columns; ///< at its points
   std::vector<double> ends;         ///< 0, those of panels and 1, if the rule is exact
-  double missed_mean_square = 0;    ///< a bound of the mean over z of (G - G_h)^2, for any radius
+  /// A bound of the mean over z of (G - G_h)^2, for any radius of the cells that have the interval.
+  double missed_mean_square = 0;
 };
 
-/// A bound, for any radius, of the root mean square over z, by a rule for [0, 1], of G on
+/// A bound, for any of some radii, of the root mean square over z, by a rule for [0, 1], of G on
 /// @p columns at its points less the polynomial in z that equals G on @p others at the points of
 /// another rule: from the coefficients of f_0.
 double missed_along_z(const dealii::Quadrature<1>& rule, const std::vector<ForceColumn>& columns,
-                      const dealii::Quadrature<1>& other, const std::vector<ForceColumn>& others);
+                      const dealii::Quadrature<1>& other, const std::vector<ForceColumn>& others,
+                      const RadialExtent& radii);
 
 } // namespace rollwave
 

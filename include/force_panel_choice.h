@@ -2,6 +2,7 @@
 #define ROLLWAVE_FORCE_PANEL_CHOICE_H
 
 #include "force_panels.h"
+#include "radial_extents.h"
 #include "ring_space.h"
 
 #include <vector>
@@ -26,10 +27,11 @@ struct Scene;
  * and the panel quartered and looked at again while the mesh pays for it.
  *
  * @param moments r f at the points of the load (Load)
+ * @param extents those of the space
  * @throws BadInput where f is not finite
  */
 ForcePanels choose_force_panels(const RingSpace& space, const Scene& scene,
-                                const std::vector<double>& moments);
+                                const std::vector<double>& moments, const RadialExtents& extents);
 
 /// N^(-p/2) C ||f|| / 100, N unknowns of degree p, C that of Friedrichs' inequality: an error of
 /// the load that is small beside the mesh's own. The panels have to be judged.

@@ -24,11 +24,12 @@ public:
   /// The numbers of the parts on the line z in [0, 2 pi), beyond a radius, from the hub outwards.
   std::vector<unsigned int> on(double z, double begin) const;
 
-  /// f_0 on the line z in [0, 2 pi), of which these are the parts.
-  ForceColumn column(const std::vector<unsigned int>& line, double z) const;
+  /// f_0 on the line z in [0, 2 pi), of which these are the parts from some radius to the surface;
+  /// those beyond the radius @p end only count for what is outside.
+  ForceColumn column(const std::vector<unsigned int>& line, double z, double end) const;
 
-  /// The angles in ]begin, end[ where parts end, in order.
-  std::vector<double> ends(double begin, double end) const;
+  /// The angles in ]begin, end[ where parts end, in order, beyond the radius @p radius.
+  std::vector<double> ends(double begin, double end, double radius) const;
 
   /// C ||f||, a bound of (f, w) / |w|, if all parts are judged.
   double friedrichs_norm(const Scene& scene) const;

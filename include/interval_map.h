@@ -27,6 +27,12 @@ public:
     return recent->second;
   }
 
+  /// nullptr where it is not made.
+  const T* find(double begin, double end) const {
+    const auto entry = known.find(std::pair(begin, end));
+    return entry == known.end() ? nullptr : &entry->second;
+  }
+
 private:
   std::map<std::pair<double, double>, T> known;
   typename std::map<std::pair<double, double>, T>::iterator recent = known.end();

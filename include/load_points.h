@@ -2,6 +2,7 @@
 #define ROLLWAVE_LOAD_POINTS_H
 
 #include "force_panels.h"
+#include "radial_extents.h"
 #include "ring_space.h"
 
 #include <vector>
@@ -17,9 +18,11 @@ struct MissedAtLoadPoints {
 
 /// For each panel from number @p first on, none where it is not a part. The same on all processes.
 /// @param moments r f at the points of the load (Load)
+/// @param extents those of the space
 std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
                                                       const ForcePanels& panels, unsigned int first,
-                                                      const std::vector<double>& moments);
+                                                      const std::vector<double>& moments,
+                                                      const RadialExtents& extents);
 
 } // namespace rollwave
 

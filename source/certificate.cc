@@ -265,10 +265,11 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto pressures = edge_pressures(space, scene, contact);
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
+  const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
   if (is_uneven && !dual.of_force)
-    dual.of_force.emplace(space, scene, dual.shapes, *columns);
+    dual.of_force.emplace(space, constraints, dual.shapes, *columns);
   const FieldVector potential = system.potential->solve(
-      scene, dual.shapes, pressures, is_uneven ? &dual.of_force->to_potential : nullptr, work);
+      scene, dual.shapes, constraints, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
     system.potential.reset();
   if (!dual.bubbles)

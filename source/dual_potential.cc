@@ -79,9 +79,8 @@ DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
       reference(reference_products(element.degree)), solver(make_symmetric_solver(kind, space)) {}
 
 FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
-                                 const std::vector<EdgePressure>& pressures,
+                                 const AffineConstraints<double>& constraints,
                                  const FieldVector* force_load, Work& work) {
-  const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
   if (angular_velocity != scene.angular_velocity)
     assemble_matrix(scene, shapes, constraints, work);
   FieldVector lift = space.make_field();

@@ -14,23 +14,29 @@ using namespace dealii;
 ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene,
                                    const std::vector<double>& moments)
     : exact(scene.uniform_force.has_value()),
-      panels(exact ? ForcePanels(scene) : choose_force_panels(space, scene, moments)),
+      extents(exact ? RadialExtents() : RadialExtents(space)),
+      panels(exact ? ForcePanels(scene) : choose_force_panels(space, scene, moments, extents)),
       negligible_error(negligible_error_of_force(space, scene, panels)) {}
 
 ForceColumn ForceInterpolant::column(double z, double begin) const {
   z = std::fmod(z, 2 * numbers::PI);
-  return panels.column(panels.on(z, begin), z);
+  return panels.column(panels.on(z, begin), z, panels[0].high[0]);
+}
+
+std::vector<double> ForceInterpolant::panel_ends(double begin, double end) const {
+  return panels.ends(begin, end, radii(begin, end).begin);
 }
 
 std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
                                                    const Quadrature<1>& rule) const {
+  const RadialExtent extent = radii(begin, end);
   std::vector<ForceColumn> lines;
   std::vector<unsigned int> panels_there;
   double low = 0, high = 0; // where these are the panels
   for (const auto& point : rule.get_points()) {
     const double z = std::fmod(begin + (end - begin) * point[0], 2 * numbers::PI);
     if (z < low || z >= high) {
-      panels_there = panels.on(z, 0);
+      panels_there = panels.on(z, extent.begin);
       low = 0;
       high = panels[0].high[1];
       for (const unsigned int i : panels_there) {
@@ -38,7 +44,7 @@ std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
         high = std::min(high, panels[i].high[1]);
       }
     }
-    lines.push_back(panels.column(panels_there, z));
+    lines.push_back(panels.column(panels_there, z, extent.end));
   }
   return lines;
 }
@@ -51,7 +57,8 @@ double ForceInterpolant::missed_along_z(double begin, double end, const FinerRul
     return z;
   };
   const std::vector<double> of_rule = angles(rules.rule), of_fine = angles(rules.fine);
-  const std::vector<unsigned int> line = panels.on(of_fine.front(), 0);
+  const RadialExtent extent = radii(begin, end);
+  const std::vector<unsigned int> line = panels.on(of_fine.front(), extent.begin);
   const auto missed_norms_on = [&](double low, double high) {
     const auto values = [&](const std::vector<double>& z) {
       std::vector<ForcePiece::Coefficients> all;
@@ -88,8 +95,10 @@ double ForceInterpolant::missed_along_z(double begin, double end, const FinerRul
     // Legendre polynomials other than the first have no mean: |int_t^1 L_k| <= (t (1 - t))^(1/2).
     const double within = std::accumulate(missed.begin(), missed.end(), missed[0]) / 2;
     const double height = panel.high[0] - panel.low[0];
-    largest = std::max(largest, outside + height * within);
+    if (panel.low[0] < extent.end)
+      largest = std::max(largest, outside + height * within);
     outside += height * missed[0];
+    largest = std::max(largest, outside);
   }
   return largest;
 }

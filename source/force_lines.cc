@@ -48,17 +48,31 @@ ForcePiece::Coefficients coefficients_between(const ForcePiece& piece, double be
   return coefficients;
 }
 
-/// The radii where any of the columns has an end.
+/// The radii where any of the columns has an end, as far as all reach and it is asked for.
 std::vector<double> all_radii(const std::vector<ForceColumn>& columns,
-                              const std::vector<ForceColumn>& others) {
-  std::vector<double> radii = {columns.front().front().begin};
+                              const std::vector<ForceColumn>& others, RadialExtent extent) {
+  for (const auto* some : {&columns, &others})
+    for (const ForceColumn& column : *some) {
+      extent.begin = std::max(extent.begin, column.front().begin);
+      extent.end = std::min(extent.end, column.back().end);
+    }
+  std::vector<double> radii = {extent.begin, extent.end};
   for (const auto* some : {&columns, &others})
     for (const ForceColumn& column : *some)
       for (const ForcePiece& piece : column)
-        radii.push_back(piece.end);
+        if (extent.begin < piece.end && piece.end < extent.end)
+          radii.push_back(piece.end);
   std::sort(radii.begin(), radii.end());
   radii.erase(std::unique(radii.begin(), radii.end()), radii.end());
   return radii;
+}
+
+/// G at a radius.
+double integral(const ForceColumn& column, double r) {
+  const ForcePiece& piece = column[piece_at(column, r, column.size() - 1)];
+  const auto integrals = legendre_integrals(piece.begin, piece.end, r);
+  return std::inner_product(integrals.begin(), integrals.end(), piece.coefficients.begin(),
+                            piece.outside);
 }
 
 } // namespace
@@ -81,7 +95,7 @@ ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
     missed = force.missed_along_z(begin, end, within_panel);
   else {
     make_exact();
-    missed = missed_along_z(exact, exact_columns, rule, columns);
+    missed = missed_along_z(exact, exact_columns, rule, columns, force.radii(begin, end));
   }
   if (missed <= negligible) {
     missed_mean_square = missed * missed;
@@ -95,12 +109,20 @@ ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
 }
 
 double missed_along_z(const Quadrature<1>& rule, const std::vector<ForceColumn>& columns,
-                      const Quadrature<1>& other, const std::vector<ForceColumn>& others) {
+                      const Quadrature<1>& other, const std::vector<ForceColumn>& others,
+                      const RadialExtent& extent) {
   const FullMatrix<double> from_others = interpolation(other, rule);
-  const std::vector<double> radii = all_radii(columns, others);
+  const std::vector<double> radii = all_radii(columns, others, extent);
   std::vector<unsigned int> piece(columns.size()), piece_of_other(others.size());
   std::vector<ForcePiece::Coefficients> of_others(others.size());
-  double outside = 0, largest = 0;
+  double outside_squared = 0;
+  for (unsigned int p = 0; p < columns.size(); ++p) {
+    double missed = integral(columns[p], radii.back());
+    for (unsigned int i = 0; i < others.size(); ++i)
+      missed -= from_others(p, i) * integral(others[i], radii.back());
+    outside_squared += rule.weight(p) * missed * missed;
+  }
+  double outside = std::sqrt(outside_squared), largest = 0;
   for (unsigned int s = radii.size() - 1; s-- > 0;) {
     const double height = radii[s + 1] - radii[s];
     const auto between = [&](const ForceColumn& column) {

@@ -26,8 +26,9 @@ constexpr double slight = 1e-9; ///< over sizes of panels
 
 class Chooser {
 public:
-  Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments)
-      : panels(scene), space(space), scene(scene), moments(moments) {
+  Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments,
+          const RadialExtents& extents)
+      : panels(scene), space(space), scene(scene), moments(moments), extents(extents) {
     find_cells();
     halve_where_fine();
     for (unsigned int i = 0; i < panels.size(); ++i)
@@ -81,6 +82,7 @@ private:
   const RingSpace& space;
   const Scene& scene;
   const std::vector<double>& moments;
+  const RadialExtents& extents;
   Queue worst;
   unsigned int most_panels = 0, n_looked_at = 0;
   double negligible_squared = 0, allowed_squared = 0;
@@ -191,7 +193,7 @@ void Chooser::halve_the_worst(unsigned int most) {
 
 Chooser::Queue Chooser::look_at_load_points() {
   const unsigned int first = std::exchange(n_looked_at, panels.size());
-  const auto at_load_points = missed_at_load_points(space, panels, first, moments);
+  const auto at_load_points = missed_at_load_points(space, panels, first, moments, extents);
   Queue seen_badly;
   for (unsigned int i = first; i < panels.size(); ++i) {
     const auto& [n_points, mean, mean_square] = at_load_points[i - first];
@@ -230,8 +232,8 @@ double negligible_error_of_force(const RingSpace& space, const Scene& scene,
 }
 
 ForcePanels choose_force_panels(const RingSpace& space, const Scene& scene,
-                                const std::vector<double>& moments) {
-  return std::move(Chooser(space, scene, moments).panels);
+                                const std::vector<double>& moments, const RadialExtents& extents) {
+  return std::move(Chooser(space, scene, moments, extents).panels);
 }
 
 } // namespace rollwave

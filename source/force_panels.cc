@@ -53,36 +53,45 @@ void ForcePanels::collect(unsigned int number, double z, double begin,
     collect(first_half + 1, z, begin, line);
 }
 
-ForceColumn ForcePanels::column(const std::vector<unsigned int>& line, double z) const {
+ForceColumn ForcePanels::column(const std::vector<unsigned int>& line, double z, double end) const {
   ForceColumn pieces;
-  pieces.reserve(line.size());
+  const auto inner_end = std::partition_point(
+      line.begin(), line.end(), [&](unsigned int i) { return nodes[i].panel.low[0] < end; });
+  pieces.reserve(inner_end - line.begin());
+  double outside = 0;
   double angular_begin = 0, angular_end = 0; // which many panels along r have in common
   ForcePiece::Coefficients angular = {};
-  for (const unsigned int i : line) {
-    const ForcePanel& panel = nodes[i].panel;
+  for (auto i = line.begin(); i != line.end(); ++i) {
+    const ForcePanel& panel = nodes[*i].panel;
     if (angular_begin != panel.low[1] || angular_end != panel.high[1]) {
       angular_begin = panel.low[1];
       angular_end = panel.high[1];
       angular = legendre_values((z - angular_begin) / (angular_end - angular_begin));
+    }
+    if (i >= inner_end) {
+      for (unsigned int l = 0; l < panel.n_rows; ++l)
+        outside += (panel.high[0] - panel.low[0]) * angular[l] * panel.coefficients(l, 0);
+      continue;
     }
     pieces.push_back({panel.low[0], panel.high[0], {}, 0});
     for (unsigned int l = 0; l < panel.n_rows; ++l)
       for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k)
         pieces.back().coefficients[k] += angular[l] * panel.coefficients(l, k);
   }
-  for (unsigned int i = pieces.size(); i-- > 1;)
-    pieces[i - 1].outside =
-        pieces[i].outside + (pieces[i].end - pieces[i].begin) * pieces[i].coefficients[0];
+  for (unsigned int i = pieces.size(); i-- > 0;) {
+    pieces[i].outside = outside;
+    outside += (pieces[i].end - pieces[i].begin) * pieces[i].coefficients[0];
+  }
   return pieces;
 }
 
-std::vector<double> ForcePanels::ends(double begin, double end) const {
+std::vector<double> ForcePanels::ends(double begin, double end, double radius) const {
   std::vector<double> angles;
   const double period = nodes[0].panel.high[1];
   double turn = std::floor(begin / period) * period;
   for (double z = begin - turn;;) {
     double next = period;
-    for (const unsigned int i : on(z, 0))
+    for (const unsigned int i : on(z, radius))
       next = std::min(next, nodes[i].panel.high[1]);
     if (turn + next >= end)
       return angles;

@@ -20,8 +20,8 @@ bool is_within(double begin, double x, double end) {
   return begin + roundings < x && x < end - roundings;
 }
 
-/// f_0 on a line z = const, and which panels it crosses; nothing where these are none of those
-/// looked at.
+/// f_0 on a line z = const at some radii, and which panels it crosses there; nothing where these
+/// are none of those looked at.
 struct Line {
   struct Crossed {
     unsigned int number;
@@ -29,11 +29,13 @@ struct Line {
     bool is_within; ///< the line
   };
 
-  Line(const ForcePanels& panels, unsigned int first, double z) {
-    const auto numbers = panels.on(z, 0);
+  Line(const ForcePanels& panels, unsigned int first, double z, const RadialExtent& extent) {
+    auto numbers = panels.on(z, extent.begin);
+    while (panels[numbers.back()].low[0] >= extent.end)
+      numbers.pop_back();
     if (std::all_of(numbers.begin(), numbers.end(), [first](auto i) { return i < first; }))
       return;
-    column = panels.column(numbers, z);
+    column = panels.column(numbers, z, extent.end);
     for (const unsigned int i : numbers) {
       const double begin = panels[i].low[1], end = panels[i].high[1];
       crossed.push_back({i, end - begin, is_within(begin, z, end)});
@@ -63,7 +65,8 @@ struct Legendre {
 
 std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
                                                       const ForcePanels& panels, unsigned int first,
-                                                      const std::vector<double>& moments) {
+                                                      const std::vector<double>& moments,
+                                                      const RadialExtents& extents) {
   const QGauss<1> gauss(space.dof_handler().get_fe().degree + 1);
   IntervalMap<std::vector<Line>> known_lines;
   IntervalMap<std::vector<Legendre>> known_legendre;     // at the radii of a radial interval
@@ -77,9 +80,11 @@ std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
     // Panels of just this size are common, and round-off shall not decide.
     const Tensor<1, 2> covered = (1 + 1e-9) * ForcePanel::n_points / gauss.size() * size;
     const auto& lines = known_lines.at(low[1], cell->vertex(3)[1], [&] {
+      const RadialExtent extent = extents.of(low[1], cell->vertex(3)[1]);
       std::vector<Line> made;
       for (const auto& point : gauss.get_points())
-        made.emplace_back(panels, first, std::fmod(low[1] + size[1] * point[0], 2 * numbers::PI));
+        made.emplace_back(panels, first, std::fmod(low[1] + size[1] * point[0], 2 * numbers::PI),
+                          extent);
       return made;
     });
     auto& legendre = known_legendre.at(low[0], cell->vertex(3)[0],

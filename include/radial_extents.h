@@ -1,0 +1,32 @@
+#ifndef ROLLWAVE_RADIAL_EXTENTS_H
+#define ROLLWAVE_RADIAL_EXTENTS_H
+
+#include "interval_map.h"
+#include "ring_space.h"
+
+#include <limits>
+
+namespace rollwave {
+
+struct RadialExtent {
+  double begin = 0, end = std::numeric_limits<double>::infinity();
+};
+
+/// The radii between which the cells of this process lie that have an angular interval in common.
+class RadialExtents {
+public:
+  /// Of no cells.
+  RadialExtents() = default;
+
+  explicit RadialExtents(const RingSpace& space);
+
+  /// Of the cells with the angular interval [begin, end]; all radii where there are none.
+  RadialExtent of(double begin, double end) const;
+
+private:
+  IntervalMap<RadialExtent> known;
+};
+
+} // namespace rollwave
+
+#endif
