@@ -45,6 +45,8 @@ struct Certificate {
   CertifiedError error;            ///< the bounds
   std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
   FeasibleTrace trace;             ///< v on the surface
+  double energy;                   ///< J(v) with f_0 in place of f
+  double work_of_rest;             ///< (f_0, v - u_h), u_h the displacement certified
 };
 
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same

@@ -18,7 +18,9 @@ struct Scene;
 class ForceColumns {
 public:
   /// @param gauss for a cell's angular interval [0, 1]
-  ForceColumns(const Scene& scene, const ForceInterpolant& force, const dealii::QGauss<1>& gauss);
+  /// @param extents those of the cells
+  ForceColumns(const Scene& scene, const ForceInterpolant& force, const dealii::QGauss<1>& gauss,
+               const RadialExtents& extents);
 
   /// Those of the angular interval [begin, end].
   const ForceLines& on(double begin, double end);
@@ -38,6 +40,7 @@ public:
 
 private:
   const ForceInterpolant& force;
+  const RadialExtents& extents;
   const FinerRule within_panel;
   const double negligible; ///< root mean square over z of what is missed of G
   IntervalMap<ForceLines> lines;

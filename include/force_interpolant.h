@@ -22,27 +22,29 @@ class ForceInterpolant {
 public:
   /// The same on all processes of the space. The scene must have a force.
   /// @param moments r f at the points of the load (Load)
+  /// @param extents those of the space
   /// @throws BadInput where f is not finite
-  ForceInterpolant(const RingSpace& space, const Scene& scene, const std::vector<double>& moments);
+  ForceInterpolant(const RingSpace& space, const Scene& scene, const std::vector<double>& moments,
+                   const RadialExtents& extents);
 
   /// The pieces of a line beyond the radius @p begin.
   ForceColumn column(double z, double begin = 0) const;
 
-  /// Those of the lines at the points of a rule for [begin, end], at the radii of the cells that
-  /// have this angular interval.
-  std::vector<ForceColumn> columns(double begin, double end,
-                                   const dealii::Quadrature<1>& rule) const;
+  /// Those of the lines at the points of a rule for [begin, end], at some radii.
+  std::vector<ForceColumn> columns(double begin, double end, const dealii::Quadrature<1>& rule,
+                                   const RadialExtent& radii) const;
 
-  /// Where within ]begin, end[ panels end, in order: G is smooth in between on these cells.
-  std::vector<double> panel_ends(double begin, double end) const;
+  /// Where within ]begin, end[ panels end, in order: from the radius @p radius outwards G is smooth
+  /// in between.
+  std::vector<double> panel_ends(double begin, double end, double radius) const {
+    return panels.ends(begin, end, radius);
+  }
 
-  /// The radii of the cells that have an angular interval.
-  RadialExtent radii(double begin, double end) const { return extents.of(begin, end); }
-
-  /// A bound, for any radius of these cells, of the root mean square over z in [begin, end], by the
-  /// finer rule, of G less the polynomial that equals it at the points of the rule: from the
+  /// A bound, for any of some radii, of the root mean square over z in [begin, end], by the finer
+  /// rule, of G less the polynomial that equals it at the points of the rule: from the
   /// coefficients. No panel may end in between.
-  double missed_along_z(double begin, double end, const FinerRule& rules) const;
+  double missed_along_z(double begin, double end, const FinerRule& rules,
+                        const RadialExtent& radii) const;
 
   /// Whether f_0 is f itself.
   bool is_exact() const { return exact; }
@@ -58,7 +60,6 @@ public:
 
 private:
   const bool exact;
-  const RadialExtents extents;
   const ForcePanels panels;
   const double negligible_error;
 };

@@ -11,8 +11,7 @@ namespace rollwave {
 
 /**
  * Lines z = const of an angular interval [begin, end] at the points of a rule for integrals over it
- * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square, at the radii of the cells that
- * have this interval.
+ * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square, at some radii.
  *
  * That rule is Gauss' one, which takes G for the polynomial G_h along z that equals it at the
  * points, where a bound of what it misses, G - G_h, is negligible. Else it is exact: Gauss' rules
@@ -20,17 +19,17 @@ namespace rollwave {
  * they add nothing but that.
  */
 struct ForceLines {
-  /// @param negligible root mean square of G - G_h over z, for any radius of these cells
+  /// @param negligible root mean square of G - G_h over z, for any of the radii
   /// @param within_panel Gauss' rule, and one that is exact where no panel ends
   ForceLines(const ForceInterpolant& force, double begin, double end, const FinerRule& within_panel,
-             double negligible);
+             double negligible, const RadialExtent& radii);
 
   bool is_exact() const { return !ends.empty(); }
 
   dealii::Quadrature<1> rule;       ///< on [0, 1]
   std::vector<ForceColumn> columns; ///< at its points
   std::vector<double> ends;         ///< 0, those of panels and 1, if the rule is exact
-  /// A bound of the mean over z of (G - G_h)^2, for any radius of the cells that have the interval.
+  /// A bound of the mean over z of (G - G_h)^2, for any of the radii.
   double missed_mean_square = 0;
 };
 

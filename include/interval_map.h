@@ -27,11 +27,8 @@ public:
     return recent->second;
   }
 
-  /// nullptr where it is not made.
-  const T* find(double begin, double end) const {
-    const auto entry = known.find(std::pair(begin, end));
-    return entry == known.end() ? nullptr : &entry->second;
-  }
+  /// All that are made, by the ends of their intervals.
+  const std::map<std::pair<double, double>, T>& entries() const { return known; }
 
 private:
   std::map<std::pair<double, double>, T> known;

@@ -31,6 +31,7 @@ struct DualParts {
   const double angular_velocity;
   const std::string force;
   RadialShapesOfMesh shapes;
+  const RadialExtents extents;                 ///< of no cells without an uneven force
   std::optional<ForceInterpolant> interpolant; ///< nullopt without force
   const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
   std::optional<ForceColumns> columns;         ///< with lines at its points

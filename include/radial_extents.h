@@ -12,7 +12,8 @@ struct RadialExtent {
   double begin = 0, end = std::numeric_limits<double>::infinity();
 };
 
-/// The radii between which the cells of this process lie that have an angular interval in common.
+/// The radii between which the cells lie that have an angular interval in common, the same on all
+/// processes.
 class RadialExtents {
 public:
   /// Of no cells.

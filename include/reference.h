@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_REFERENCE_H
 #define ROLLWAVE_REFERENCE_H
 
+#include "certificate.h"
 #include "exact_solution.h"
 #include "result.h"
 #include "ring_space.h"
@@ -33,6 +34,9 @@ struct Reference {
   /// b int lambda w dz
   std::function<double(const SurfaceFunction& w)> contact_work;
 
+  /// (f, w) of a field, where the load's quadrature is not exact; else empty.
+  std::function<double(const RingSpace& space, const FieldVector& field)> work_of_force;
+
   /// lambda(z), or nullopt where it is infinite
   std::function<std::optional<double>(double z)> pressure;
 
@@ -47,11 +51,14 @@ struct Reference {
 Reference exact_reference(const ExactSolution& exact);
 
 /**
- * A discrete solution @p result on @p space, by its contact forces N_i: b int lambda w dz = sum_i
- * N_i w(z_i). Errors are known to within its own error, about which @p name should tell.
+ * A discrete solution @p result on @p space with its certificate, by its contact forces N_i:
+ * b int lambda w dz = sum_i N_i w(z_i), and a(u, u) = -2 (J(u) + b int lambda phi dz). Errors are
+ * known to within its own error, about which @p name should tell. The work of a force that is no
+ * number is that of the certificate's f_0 everywhere: what that leaves out of f then acts on errors
+ * alone, not on the displacement.
  */
 Reference discrete_reference(const Scene& scene, const RingSpace& space, const Result& result,
-                             const std::string& name);
+                             const Certificate& certificate, const std::string& name);
 
 } // namespace rollwave
 

@@ -61,6 +61,9 @@ struct Scene {
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
 
+  /// Whether f is no number.
+  bool has_uneven_force() const { return force && !uniform_force; }
+
   double unit = 1; ///< the unit of length, in the user's lengths
 
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.

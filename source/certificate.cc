@@ -56,18 +56,20 @@ struct LineIntegrals {
   double bound_squared = 0; ///< of eta^2 without the road's term
   double norm_squared = 0;  ///< of a(v, v)
   double work_of_force = 0; ///< of (f_0, v) = int G v_r dr dz
+  double work_of_rest = 0;  ///< of (f_0, v - u_h)
 
   void add(const LineIntegrals& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
+    work_of_rest += weight * other.work_of_rest;
   }
 
   /// The sums over all processes.
   LineIntegrals over(MPI_Comm communicator) const {
-    std::vector<double> sums = {bound_squared, norm_squared, work_of_force};
+    std::vector<double> sums = {bound_squared, norm_squared, work_of_force, work_of_rest};
     Utilities::MPI::sum(sums, communicator, sums);
-    return {sums[0], sums[1], sums[2]};
+    return {sums[0], sums[1], sums[2], sums[3]};
   }
 };
 
@@ -179,11 +181,12 @@ private:
       line_psi[i] += length * angular.bubble * g[i];
       line_psi_z[i] = per_length * line_psi_z[i] + angular.mode * g[i];
     }
-    double bound_squared = 0, norm_squared = 0, work_of_force = 0;
+    const double correction_r = correction.value * per_height;
+    double bound_squared = 0, norm_squared = 0, work_of_force = 0, work_of_rest = 0;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
       const double xi = (r - low[0]) * per_height;
-      double v_r = correction.value * per_height, v_z = correction.slope * xi;
+      double v_r = correction_r, v_z = correction.slope * xi;
       double psi_s = 0, psi_z = 0;
       const RadialShape* const shapes_at = &radial->shapes[n * q];
       for (unsigned int i = 0; i < n; ++i) {
@@ -201,8 +204,9 @@ private:
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
       norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
       work_of_force += weight * moment * v_r;
+      work_of_rest += weight * moment * correction_r;
     }
-    return {bound_squared, norm_squared, work_of_force};
+    return {bound_squared, norm_squared, work_of_force, work_of_rest};
   }
 
   const std::vector<double>& moments_of(const ForceColumn& column) {
@@ -323,7 +327,15 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(sums.bound_squared, 0.));
     total.add(sums, 1);
   }
-  const auto [bound_squared, norm_squared, work_of_force] = total.over(space.communicator());
+  const auto [bound_squared, norm_squared, work_of_force, work_of_rest] =
+      total.over(space.communicator());
+
+  double work_of_projection = 0; // on the contact nodes
+  if (system.load) {
+    FieldVector projection = displacement;
+    projection -= field;
+    work_of_projection = projection * *system.load;
+  }
 
   const double of_flux = std::sqrt(std::max(bound_squared, 0.));
   double epsilon = 0, missed = 0;
@@ -336,7 +348,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const double eta = of_flux + missed;
   const double energy_norm = epsilon + eta;
   const double energy = norm_squared / 2 - work_of_force;
-  const double energy_error = (epsilon + missed) * std::sqrt(norm_squared);
+  const double round_off = 1e-15 * (norm_squared + std::abs(work_of_force));
+  const double energy_error = (epsilon + missed) * std::sqrt(norm_squared) + round_off;
   const double smallest_norm = std::sqrt(norm_squared) - energy_norm;
   double relative = std::numeric_limits<double>::infinity();
   if (smallest_norm > 0)
@@ -346,7 +359,9 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   return {{energy_norm, relative, energy - energy_error - eta * eta / 2 - epsilon * energy_norm,
            energy + energy_error, norm_squared},
           std::move(cell_bounds),
-          trace};
+          trace,
+          energy,
+          work_of_rest + work_of_projection};
 }
 
 } // namespace rollwave

@@ -13,8 +13,8 @@ namespace rollwave {
 using namespace dealii;
 
 ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
-                           const QGauss<1>& gauss)
-    : force(force),
+                           const QGauss<1>& gauss, const RadialExtents& extents)
+    : force(force), extents(extents),
       within_panel(gauss,
                    QGauss<1>(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()))),
       // of (int w^2 / r dr dz)^(1/2) over the ring
@@ -23,8 +23,9 @@ ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
           std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {}
 
 const ForceLines& ForceColumns::on(double begin, double end) {
-  return lines.at(begin, end,
-                  [&] { return ForceLines(force, begin, end, within_panel, negligible); });
+  return lines.at(begin, end, [&] {
+    return ForceLines(force, begin, end, within_panel, negligible, extents.of(begin, end));
+  });
 }
 
 ForceAtRadii& ForceColumns::at_radii(double begin, double end, const RadialShapes& radial) {

@@ -12,9 +12,8 @@ namespace rollwave {
 using namespace dealii;
 
 ForceInterpolant::ForceInterpolant(const RingSpace& space, const Scene& scene,
-                                   const std::vector<double>& moments)
+                                   const std::vector<double>& moments, const RadialExtents& extents)
     : exact(scene.uniform_force.has_value()),
-      extents(exact ? RadialExtents() : RadialExtents(space)),
       panels(exact ? ForcePanels(scene) : choose_force_panels(space, scene, moments, extents)),
       negligible_error(negligible_error_of_force(space, scene, panels)) {}
 
@@ -23,20 +22,16 @@ ForceColumn ForceInterpolant::column(double z, double begin) const {
   return panels.column(panels.on(z, begin), z, panels[0].high[0]);
 }
 
-std::vector<double> ForceInterpolant::panel_ends(double begin, double end) const {
-  return panels.ends(begin, end, radii(begin, end).begin);
-}
-
 std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
-                                                   const Quadrature<1>& rule) const {
-  const RadialExtent extent = radii(begin, end);
+                                                   const Quadrature<1>& rule,
+                                                   const RadialExtent& radii) const {
   std::vector<ForceColumn> lines;
   std::vector<unsigned int> panels_there;
   double low = 0, high = 0; // where these are the panels
   for (const auto& point : rule.get_points()) {
     const double z = std::fmod(begin + (end - begin) * point[0], 2 * numbers::PI);
     if (z < low || z >= high) {
-      panels_there = panels.on(z, extent.begin);
+      panels_there = panels.on(z, radii.begin);
       low = 0;
       high = panels[0].high[1];
       for (const unsigned int i : panels_there) {
@@ -44,12 +39,13 @@ std::vector<ForceColumn> ForceInterpolant::columns(double begin, double end,
         high = std::min(high, panels[i].high[1]);
       }
     }
-    lines.push_back(panels.column(panels_there, z, extent.end));
+    lines.push_back(panels.column(panels_there, z, radii.end));
   }
   return lines;
 }
 
-double ForceInterpolant::missed_along_z(double begin, double end, const FinerRule& rules) const {
+double ForceInterpolant::missed_along_z(double begin, double end, const FinerRule& rules,
+                                        const RadialExtent& radii) const {
   const auto angles = [&](const Quadrature<1>& rule) {
     std::vector<double> z;
     for (const auto& point : rule.get_points())
@@ -57,8 +53,7 @@ double ForceInterpolant::missed_along_z(double begin, double end, const FinerRul
     return z;
   };
   const std::vector<double> of_rule = angles(rules.rule), of_fine = angles(rules.fine);
-  const RadialExtent extent = radii(begin, end);
-  const std::vector<unsigned int> line = panels.on(of_fine.front(), extent.begin);
+  const std::vector<unsigned int> line = panels.on(of_fine.front(), radii.begin);
   const auto missed_norms_on = [&](double low, double high) {
     const auto values = [&](const std::vector<double>& z) {
       std::vector<ForcePiece::Coefficients> all;
@@ -95,7 +90,7 @@ double ForceInterpolant::missed_along_z(double begin, double end, const FinerRul
     // Legendre polynomials other than the first have no mean: |int_t^1 L_k| <= (t (1 - t))^(1/2).
     const double within = std::accumulate(missed.begin(), missed.end(), missed[0]) / 2;
     const double height = panel.high[0] - panel.low[0];
-    if (panel.low[0] < extent.end)
+    if (panel.low[0] < radii.end)
       largest = std::max(largest, outside + height * within);
     outside += height * missed[0];
     largest = std::max(largest, outside);

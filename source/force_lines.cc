@@ -78,9 +78,9 @@ double integral(const ForceColumn& column, double r) {
 } // namespace
 
 ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
-                       const FinerRule& within_panel, double negligible)
-    : rule(within_panel.rule), columns(force.columns(begin, end, rule)), ends({0}) {
-  for (const double z : force.panel_ends(begin, end))
+                       const FinerRule& within_panel, double negligible, const RadialExtent& radii)
+    : rule(within_panel.rule), columns(force.columns(begin, end, rule, radii)), ends({0}) {
+  for (const double z : force.panel_ends(begin, end, radii.begin))
     ends.push_back((z - begin) / (end - begin));
   ends.push_back(1);
   const bool is_on_one_panel = ends.size() == 2;
@@ -88,14 +88,14 @@ ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
   std::vector<ForceColumn> exact_columns;
   const auto make_exact = [&] {
     exact = rule_between(ends, within_panel.fine);
-    exact_columns = force.columns(begin, end, exact);
+    exact_columns = force.columns(begin, end, exact, radii);
   };
   double missed;
   if (is_on_one_panel)
-    missed = force.missed_along_z(begin, end, within_panel);
+    missed = force.missed_along_z(begin, end, within_panel, radii);
   else {
     make_exact();
-    missed = missed_along_z(exact, exact_columns, rule, columns, force.radii(begin, end));
+    missed = missed_along_z(exact, exact_columns, rule, columns, radii);
   }
   if (missed <= negligible) {
     missed_mean_square = missed * missed;

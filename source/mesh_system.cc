@@ -6,12 +6,13 @@ DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::stri
                      const std::vector<double>& moments)
     : angular_velocity(scene.angular_velocity), force(force),
       shapes(scene, space.dof_handler().get_fe().degree),
-      interpolant(scene.force
-                      ? std::optional<ForceInterpolant>(std::in_place, space, scene, moments)
-                      : std::nullopt),
+      extents(scene.has_uneven_force() ? RadialExtents(space) : RadialExtents()),
+      interpolant(scene.force ? std::optional<ForceInterpolant>(std::in_place, space, scene,
+                                                                moments, extents)
+                              : std::nullopt),
       gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
   if (interpolant)
-    columns.emplace(scene, *interpolant, gauss);
+    columns.emplace(scene, *interpolant, gauss, extents);
 }
 
 bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {

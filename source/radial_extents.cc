@@ -1,25 +1,37 @@
 #include "radial_extents.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace rollwave {
 
 using namespace dealii;
 
 RadialExtents::RadialExtents(const RingSpace& space) {
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    RadialExtent& extent = known.at(low[1], high[1], [&] { return RadialExtent{low[0], high[0]}; });
-    extent.begin = std::min(extent.begin, low[0]);
-    extent.end = std::max(extent.end, high[0]);
-  }
+  const auto add = [this](double begin, double end, const RadialExtent& radii) {
+    RadialExtent& extent = known.at(begin, end, [&] { return radii; });
+    extent.begin = std::min(extent.begin, radii.begin);
+    extent.end = std::max(extent.end, radii.end);
+  };
+  for (const auto& cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      add(low[1], high[1], {low[0], high[0]});
+    }
+  std::vector<std::array<double, 4>> own;
+  for (const auto& [interval, radii] : known.entries())
+    own.push_back({{interval.first, interval.second, radii.begin, radii.end}});
+  for (const auto& some : Utilities::MPI::all_gather(space.communicator(), own))
+    for (const auto& [begin, end, low, high] : some)
+      add(begin, end, {low, high});
 }
 
 RadialExtent RadialExtents::of(double begin, double end) const {
-  const RadialExtent* const extent = known.find(begin, end);
-  return extent ? *extent : RadialExtent();
+  const auto entry = known.entries().find({begin, end});
+  return entry == known.entries().end() ? RadialExtent() : entry->second;
 }
 
 } // namespace rollwave

@@ -1,7 +1,9 @@
 #include "reference.h"
 
+#include "assembly.h"
 #include "exact_field.h"
 #include "scene.h"
+#include "work_of_force.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -13,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 
 namespace rollwave {
 
@@ -142,15 +145,17 @@ Reference exact_reference(const ExactSolution& exact) {
 }
 
 Reference discrete_reference(const Scene& scene, const RingSpace& space, const Result& result,
-                             const std::string& name) {
+                             const Certificate& certificate, const std::string& name) {
   struct Node {
     double angle;
     double force;
   };
   std::vector<Node> nodes;
+  double work_of_road = 0;
   for (unsigned int i = 0; i < result.contact_rows.size(); ++i) {
     const ContactRow& row = result.contact_rows[i];
     nodes.push_back({row.angle, row.pressure * space.contact_nodes()[i].weight});
+    work_of_road += nodes.back().force * row.road;
   }
   // Where the zone cuts the contact short, the pressure is infinite.
   const auto [left, right] = result.patch.ends.value_or(std::pair(0., 0.));
@@ -159,8 +164,16 @@ Reference discrete_reference(const Scene& scene, const RingSpace& space, const R
   Reference reference;
   reference.name = name;
   reference.force = result.patch.force;
-  reference.energy = result.energy.value;
-  reference.norm_squared = result.energy.norm_squared;
+  if (scene.has_uneven_force()) {
+    const auto force = std::make_shared<ForceInterpolant>(
+        space, scene, assemble_load(space, scene).moments, RadialExtents(space));
+    reference.work_of_force = [force](const RingSpace& other, const FieldVector& field) {
+      return rollwave::work_of_force(*force, other, field);
+    };
+  }
+  // J(v) errs by half the square of the error only, J(u_h) by that of the load as well.
+  reference.energy = certificate.energy;
+  reference.norm_squared = -2 * (certificate.energy + work_of_road);
   reference.half_width = result.patch.half_width();
   reference.contact_work = [nodes](const SurfaceFunction& w) {
     double sum = 0;

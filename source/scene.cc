@@ -190,7 +190,7 @@ std::function<double(double, double)> parse_force(const Parameters& parameters) 
 double possible_half_width(const Scene& scene, double distance, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   const double widest = std::acos(distance / (2 * b));
-  if (scene.force && !scene.uniform_force)
+  if (scene.has_uneven_force())
     return widest;
   const double free = scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b);
   return std::min(widest, crossing_angle(b, distance, free) + 4 * numbers::PI / angular_cells);

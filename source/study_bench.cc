@@ -58,13 +58,14 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters,
   const Solution solution = simulate(scene, read_parameters(settings), communicator);
   if (solution.result.is_interrupted)
     throw Interrupted(solution.result.shortfall);
-  if (!solution.result.certified)
+  if (!solution.certificate)
     throw NotSolved(solution.result.shortfall);
   std::ostringstream name;
   name << "an adaptive solution with " << solution.result.mesh.dofs
        << " unknowns, its own relative error certified to " << std::setprecision(2)
        << solution.result.certified->relative;
-  Reference reference = discrete_reference(scene, *solution.space, solution.result, name.str());
+  Reference reference = discrete_reference(scene, *solution.space, solution.result,
+                                           *solution.certificate, name.str());
   reference.own_error = solution.result.certified->energy_norm;
   return reference;
 }

@@ -64,10 +64,12 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
     pressure_squared += space.contact_nodes()[i].weight * difference * difference;
   }
 
+  const double work = reference.work_of_force
+                          ? reference.work_of_force(space, field)
+                          : result.energy.norm_squared / 2 - result.energy.value;
   TrueErrors errors;
   errors.energy_norm =
-      energy_distance(reference, trace_of(space, field), result.energy.norm_squared,
-                      result.energy.norm_squared / 2 - result.energy.value);
+      energy_distance(reference, trace_of(space, field), result.energy.norm_squared, work);
   errors.relative_energy_norm =
       reference.norm_squared > 0 ? errors.energy_norm / std::sqrt(reference.norm_squared) : 0;
   errors.l2_norm = reference.l2_distance ? reference.l2_distance(space, field)
@@ -81,13 +83,12 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
       is_uniform ? reference.expected_order(result.mesh.degree) : result.mesh.degree;
   if (certificate) {
     const CertifiedError& certified = certificate->error;
-    const double energy = certified.upper_bound;
-    errors.feasible_energy_norm =
-        energy_distance(reference, trace_of(space, certificate->trace), certified.norm_squared,
-                        certified.norm_squared / 2 - energy);
+    const double work_of_feasible = work + certificate->work_of_rest;
+    const double energy = certified.norm_squared / 2 - work_of_feasible;
+    errors.feasible_energy_norm = energy_distance(reference, trace_of(space, certificate->trace),
+                                                  certified.norm_squared, work_of_feasible);
     if (energy > reference.energy)
-      errors.effectivity =
-          std::sqrt(std::max(0., energy - certified.lower_bound) / (energy - reference.energy));
+      errors.effectivity = certified.energy_norm / std::sqrt(2 * (energy - reference.energy));
   }
   return errors;
 }

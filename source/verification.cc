@@ -19,7 +19,7 @@ namespace rollwave {
 using namespace dealii;
 
 std::optional<ExactSolution> find_exact_solution(const Scene& scene, const Parameters& parameters) {
-  if (scene.force && !scene.uniform_force)
+  if (scene.has_uneven_force())
     return {};
   const double left = 3 * numbers::PI / 2 - scene.zone_begin;
   const double right = scene.zone_end - 3 * numbers::PI / 2;

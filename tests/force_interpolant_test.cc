@@ -39,7 +39,8 @@ struct Force {
                   "Mesh/Radial cells=" + std::to_string(radial_cells),
                   "Mesh/Angular cells=" + std::to_string(angular_cells)})),
         scene(make_scene(parameters)), mesh(scene, parameters),
-        interpolant(mesh.space, scene, assemble_load(mesh.space, scene).moments) {}
+        interpolant(mesh.space, scene, assemble_load(mesh.space, scene).moments,
+                    RadialExtents(mesh.space)) {}
 
   double integral(double r, double z) const { return ::integral(interpolant.column(z), r); }
 
@@ -202,7 +203,7 @@ TEST(ForceLines, BoundWhatARuleMissesAlongZ) {
     const Force force(expression, 6, 72);
     for (const double begin : {0., 0.4, 3.1, 5.7})
       for (const double length : {0.01, 0.08, 0.5}) {
-        const ForceLines lines(force.interpolant, begin, begin + length, within_panel, 1e100);
+        const ForceLines lines(force.interpolant, begin, begin + length, within_panel, 1e100, {});
         const double bound = std::sqrt(lines.missed_mean_square);
         EXPECT_EQ(lines.rule.size(), gauss.size());
         for (const double r : {a, 0.6, 0.79, 0.95}) {
@@ -232,13 +233,16 @@ TEST(ForceLines, ServeTheRadiiOfTheirCells) {
     const Scene scene = make_scene(parameters);
     const Solution solution = simulate(scene, parameters);
     const RingSpace space(*solution.triangulation, scene, 1);
-    const ForceInterpolant force(space, scene, assemble_load(space, scene).moments);
+    const RadialExtents extents(space);
+    const ForceInterpolant force(space, scene, assemble_load(space, scene).moments, extents);
     unsigned int n_short = 0;
     for (const auto& cell : space.dof_handler().active_cell_iterators()) {
       const dealii::Point<2> low = cell->vertex(0), high = cell->vertex(3);
       const double length = high[1] - low[1];
-      const ForceLines any(force, low[1], high[1], within_panel, 1e100),
-          exact(force, low[1], high[1], within_panel, 0);
+      const RadialExtent radii = extents.of(low[1], high[1]);
+      ASSERT_TRUE(radii.begin <= low[0] && high[0] <= radii.end);
+      const ForceLines any(force, low[1], high[1], within_panel, 1e100, radii),
+          exact(force, low[1], high[1], within_panel, 0, radii);
       for (const double r : {low[0], (low[0] + high[0]) / 2, high[0]}) {
         for (const ForceLines* lines : {&any, &exact})
           for (unsigned int p = 0; p < lines->columns.size(); p += 3) {
@@ -258,7 +262,7 @@ TEST(ForceLines, ServeTheRadiiOfTheirCells) {
 TEST(ForceLines, IntegrateWhatJumpsAlongZ) {
   const FinerRule within_panel(dealii::QGauss<1>(3), dealii::QGauss<1>(8));
   const Force force("if(z<3.12,1,-1)+r*z", 8, 720);
-  const ForceLines lines(force.interpolant, 3.1, 3.2, within_panel, 1e-9);
+  const ForceLines lines(force.interpolant, 3.1, 3.2, within_panel, 1e-9, {});
   ASSERT_TRUE(lines.is_exact());
   EXPECT_EQ(lines.missed_mean_square, 0);
   // int G dz and int G^2 dz at the hub, G = c + d z beside the jump
@@ -285,7 +289,7 @@ TEST(ForceLines, IntegrateWhatJumpsAlongZ) {
 TEST(ForceInterpolant, TellsWherePanelsEnd) {
   const Force force("if(z<2,1,-1)", 8, 4000);
   // The jump, met by halving until the numbers next to it.
-  const std::vector<double> ends = force.interpolant.panel_ends(1.9, 2.1);
+  const std::vector<double> ends = force.interpolant.panel_ends(1.9, 2.1, a);
   ASSERT_GT(ends.size(), 8u);
   EXPECT_TRUE(std::is_sorted(ends.begin(), ends.end()));
   EXPECT_GT(ends.front(), 1.9);
@@ -293,12 +297,12 @@ TEST(ForceInterpolant, TellsWherePanelsEnd) {
   EXPECT_LT(std::abs(*std::lower_bound(ends.begin(), ends.end(), 2. - 1e-6) - 2), 1e-6);
   // A turn further on they are the same; the period ends a panel.
   const std::vector<double> turned =
-      force.interpolant.panel_ends(1.9 + 2 * dealii::numbers::PI, 2.1 + 2 * dealii::numbers::PI);
+      force.interpolant.panel_ends(1.9 + 2 * dealii::numbers::PI, 2.1 + 2 * dealii::numbers::PI, a);
   ASSERT_EQ(turned.size(), ends.size());
   for (unsigned int i = 0; i < ends.size(); ++i)
     EXPECT_NEAR(turned[i], ends[i] + 2 * dealii::numbers::PI, 1e-14);
-  const std::vector<double> at_period =
-      force.interpolant.panel_ends(2 * dealii::numbers::PI - 1e-9, 2 * dealii::numbers::PI + 1e-9);
+  const std::vector<double> at_period = force.interpolant.panel_ends(
+      2 * dealii::numbers::PI - 1e-9, 2 * dealii::numbers::PI + 1e-9, a);
   ASSERT_FALSE(at_period.empty());
   EXPECT_EQ(std::count(at_period.begin(), at_period.end(), 2 * dealii::numbers::PI), 1);
 }
@@ -357,7 +361,7 @@ TEST(ForceInterpolant, SeesWhatBeginsBesideAnEndOfAPanel) {
   // Exactly there nothing has to be halved.
   EXPECT_LT(Force("if(z<pi,1,0)", 8, 96, 8).interpolant.error(), 1e-13);
   EXPECT_LT(Force("if(r<0.75,1,0)", 8, 96, 8).interpolant.error(), 1e-13);
-  EXPECT_EQ(Force("if(z<pi,1,0)", 8, 96, 8).interpolant.panel_ends(3.1, 3.2).size(), 1u);
+  EXPECT_EQ(Force("if(z<pi,1,0)", 8, 96, 8).interpolant.panel_ends(3.1, 3.2, a).size(), 1u);
 }
 
 TEST(ForceInterpolant, RefusesForcesThatAreNotFinite) {
