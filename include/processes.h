@@ -27,6 +27,9 @@ public:
   /// Whether this is the process that speaks for all.
   bool is_first() const;
 
+  /// Waits until the first process is here as well, such as with files that it alone writes.
+  void wait_for_first() const;
+
   /// Waits, on all but the first process, until that should have ended them all: what has failed on
   /// all of them is told once.
   void let_first_speak() const;

@@ -23,7 +23,8 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * A cell whose indicator is far above that of the last one marked is cut more than once: where u is
  * smooth, elements of degree p leave eta_K^2 / 4^(p + 1) to each of the four parts, and a part that
  * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
- * cut gains no more than a factor of 2 in eta_K^2, are not behind the others.
+ * cut gains no more than a factor of 2 in eta_K^2, are not behind the others. Such cuts end where
+ * there would be more than four times the cells.
  *
  * Where @p coarsens, four parts of a cell are first made one again if that would have less than
  * half of the squared indicator of the last cell marked, by the same rule.

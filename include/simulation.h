@@ -18,8 +18,8 @@ void check_simulation(const Parameters& parameters, unsigned int n_processes);
  * When the user interrupts it, the mesh at hand is the last one: its solution, certified where that
  * was asked for, is the best there is, and Result::is_interrupted is set if anything is missing.
  *
- * Where memory is enough for some of the meshes of an adaptive run only, it is solved again up to
- * the last of these; where it is too little for the certificate, there is none. Either is a
+ * Where some of the meshes of an adaptive run only can be solved, such as for want of memory, it is
+ * solved again up to the last of these; where the certificate fails, there is none. Either is a
  * shortfall.
  *
  * On several processes all call it with their @p communicator, and get the same Result; mesh and

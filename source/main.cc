@@ -42,6 +42,7 @@ void run(const CommandLine& line, std::ostream& out, const Processes& processes)
       print_study(out, study.runs);
       report_files(out, write_study(directory, parameters, study.runs));
     }
+    processes.wait_for_first();
     if (!study.shortfall.empty())
       throw NotSolved(study.shortfall);
     if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
@@ -64,6 +65,7 @@ void run(const CommandLine& line, std::ostream& out, const Processes& processes)
   }
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(out, solution.result.work, written);
+  processes.wait_for_first();
   if (!solution.result.shortfall.empty())
     throw NotSolved(solution.result.shortfall);
 }

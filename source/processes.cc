@@ -39,6 +39,10 @@ bool Processes::is_first() const {
   return process_number(communicator()) == 0;
 }
 
+void Processes::wait_for_first() const {
+  share_text(communicator(), {});
+}
+
 void Processes::let_first_speak() const {
   if (!is_first())
     std::this_thread::sleep_for(

@@ -329,6 +329,7 @@ bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
   if (marking == Marking::all)
     last_marked = 0;
   const double left_to_part = std::pow(4., -(degree + 1.));
+  const double most_now = std::min(most_cells, 4. * triangulation.n_global_active_cells());
   bool is_changed = false;
   clear_flags(triangulation);
   if (coarsens) {
@@ -355,7 +356,7 @@ bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
         cell->set_refine_flag();
     flag_columns(triangulation, scene);
     prepare(triangulation);
-    if (count_flagged(triangulation) == 0 || n_cells_to_come(triangulation) > most_cells)
+    if (count_flagged(triangulation) == 0 || n_cells_to_come(triangulation) > most_now)
       break;
     execute(triangulation, squares, left_to_part);
   }

@@ -49,29 +49,36 @@ void add_text(std::string& text, const std::string& more) {
   text += (text.empty() || more.empty() ? "" : "; ") + more;
 }
 
-/// What is left out for want of memory, and the key that leaves it out from the start.
-std::string left_out_text(const std::string& what, const NotEnoughMemory& shortage,
-                          const std::string& key) {
-  return what + ": " + shortage.reason + "; use fewer unknowns, or set " + key + " to false";
+/// Why something was not solved. For want of memory there is other advice than the exception's.
+std::string reason_of(const NotSolved& failure) {
+  const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure);
+  return shortage ? shortage->reason : failure.what();
 }
 
-/// A certificate that does not fit into memory leaves the solution as it is, with a shortfall.
-/// Where an error is wanted and the mesh before was certified, this one counts as not solved.
-/// @throws NotEnoughMemory then.
+/// What is left out for a failure, and the key that leaves it out from the start.
+std::string left_out_text(const std::string& what, const NotSolved& failure,
+                          const std::string& key) {
+  return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
+}
+
+/// A certificate that fails, such as for want of memory, leaves the solution as it is, with a
+/// shortfall. Where an error is wanted and the mesh before was certified, this one counts as not
+/// solved.
+/// @throws NotSolved then.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
                       Solution& solution) {
   Result& result = solution.result;
   try {
     solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
                                    on_mesh.displacement, solution.system, result.work);
-  } catch (const NotEnoughMemory& shortage) {
+  } catch (const NotSolved& failure) {
     if (wants_error && result.cycles.size() > 1) {
       result.cycles.pop_back();
       throw;
     }
     solution.system = {};
-    add_text(result.shortfall, left_out_text("the error could not be certified", shortage,
-                                             "Certificate/Error bound"));
+    add_text(result.shortfall,
+             left_out_text("the error could not be certified", failure, "Certificate/Error bound"));
     return;
   }
   result.certified = solution.certificate->error;
@@ -229,12 +236,12 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     else if (result.shortfall.empty() && result.residuals.largest() > wanted_residual &&
              parameters.contact.method == ContactMethod::active_set)
       result.shortfall = residual_text(result.residuals);
-    if (parameters.certificate.load_bounds && result.certified)
+    if (parameters.certificate.load_bounds && result.certified && !result.is_interrupted)
       try {
         result.load_bounds =
             bound_load(scene, parameters, *solution.space, on_mesh, solution.system, result);
-      } catch (const NotEnoughMemory& shortage) {
-        add_text(result.shortfall, left_out_text("the load could not be enclosed", shortage,
+      } catch (const NotSolved& failure) {
+        add_text(result.shortfall, left_out_text("the load could not be enclosed", failure,
                                                  "Certificate/Load bounds"));
       }
     if (keep == Keep::nothing)
@@ -244,10 +251,10 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
   }
 }
 
-/// Solves anew, on no larger meshes than the last of @p result, after one that memory was not
-/// enough for, for this @p reason.
-Solution run_within_memory(const Scene& scene, Parameters parameters, MPI_Comm communicator,
-                           const Result& result, const std::string& reason, Keep keep) {
+/// Solves anew, on no larger meshes than the last of @p result, after one that failed for this
+/// @p reason.
+Solution run_on_smaller_meshes(const Scene& scene, Parameters parameters, MPI_Comm communicator,
+                               const Result& result, const std::string& reason, Keep keep) {
   const unsigned int most_unknowns =
       std::max<unsigned int>(result.cycles.back().dofs, std::lround(count_unknowns(parameters)));
   parameters.mesh.most_unknowns = most_unknowns;
@@ -292,17 +299,17 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
   try {
     solve_and_refine(scene, parameters, before, communicator, keep, solution);
     return solution;
-  } catch (const NotEnoughMemory& shortage) {
+  } catch (const NotSolved& failure) {
     if (solution.result.cycles.empty())
       throw;
-    reason = shortage.reason;
+    reason = reason_of(failure);
   }
   const Result result = std::move(solution.result);
   solution.system = {};
   solution.space.reset();
   solution.triangulation.reset();
   release_freed_memory();
-  return run_within_memory(scene, parameters, communicator, result, reason, keep);
+  return run_on_smaller_meshes(scene, parameters, communicator, result, reason, keep);
 }
 
 } // namespace

@@ -508,4 +508,36 @@ TEST_F(Faults, MemoryLimitLeavesTheMeshThatWasSolved) {
   EXPECT_GT(n_kept, 0u);
 }
 
+// With this rho Uzawa's method takes more steps the more contact nodes there are.
+TEST_F(Faults, IterationThatFailsLeavesTheMeshesBefore) {
+  const Outcome outcome =
+      shell("$rollwave " + scene +
+            " --set Contact/Method=uzawa --set Contact/Rho=3.3 --set 'Contact/Most "
+            "steps=1000' --set 'Mesh/Radial cells=4' --set 'Mesh/Angular cells=60' --set "
+            "'Mesh/Wanted relative error=1e-3'");
+  ASSERT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("could not be solved: Uzawa's method"), std::string::npos)
+      << outcome.text;
+  EXPECT_TRUE(has("solution.vtu"));
+  const auto summary = nlohmann::json::parse(read("summary.json"));
+  ASSERT_GT(summary["cycles"].size(), 1u);
+  const double certified = summary["cycles"].back()["certified_relative"];
+  EXPECT_GT(certified, 1e-3);
+  EXPECT_LT(certified, summary["cycles"].front()["certified_relative"]);
+}
+
+// At a road that is nearer there is more contact, for which this rho is too large.
+TEST_F(Faults, LoadBoundsThatFailCostNothingElse) {
+  const Outcome outcome =
+      shell("$rollwave " + scene +
+            " --set Contact/Method=uzawa --set Contact/Rho=3.9 --set Mesh/Degree=1 --set "
+            "'Mesh/Radial cells=4' --set 'Mesh/Angular cells=60' --set 'Certificate/Load "
+            "bounds=true'");
+  ASSERT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_NE(outcome.text.find("the load could not be enclosed: Uzawa's method"), std::string::npos)
+      << outcome.text;
+  EXPECT_TRUE(has("solution.vtu"));
+  EXPECT_TRUE(nlohmann::json::parse(read("summary.json"))["error"].contains("certified_relative"));
+}
+
 } // namespace

@@ -135,6 +135,21 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
   }
 }
 
+// With many cells marked the last one has next to no error, and parts of others would be cut until
+// they have as little.
+TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
+  for (const char* marking : {"Mesh/Marking=number", "Mesh/Marking=bulk", "Mesh/Marking=all"})
+    for (const char* fraction : {"Mesh/Marked fraction=0.6", "Mesh/Marked fraction=1"}) {
+      const Parameters parameters = parameters_of(
+          {marking, fraction, "Cylinder/Inner radius=0.99", "Road/Distance=0.995", "Mesh/Degree=1",
+           "Mesh/Radial cells=4", "Mesh/Angular cells=96", "Mesh/Adaptive cycles=3"});
+      const auto& cycles = simulate(make_scene(parameters), parameters).result.cycles;
+      ASSERT_EQ(cycles.size(), 4u);
+      for (unsigned int cycle = 1; cycle < cycles.size(); ++cycle)
+        EXPECT_LE(cycles[cycle].cells, 4 * cycles[cycle - 1].cells) << marking << ' ' << fraction;
+    }
+}
+
 // CellId and p4est have no room for more; the cells around are cut no further either.
 TEST(Stability, RefinementEndsAtTheFinestLevel) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
