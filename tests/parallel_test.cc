@@ -320,7 +320,7 @@ TEST_F(StudyOnProcesses, EndTogetherWhenInterrupted) {
 // Those that have nothing to write wait for the first process before all of them end.
 TEST_F(StudyOnProcesses, LetTheFirstWriteAllBeforeTheyEnd) {
   const std::filesystem::path slow = directory / "gnuplot";
-  std::ofstream(slow) << "#!/bin/sh\nsleep 1.5\nexec $(command -v -p gnuplot) \"$@\"\n";
+  std::ofstream(slow) << "#!/bin/sh\nsleep 0.7\nexec $(command -v -p gnuplot) \"$@\"\n";
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   const std::string study = "exec $rollwave " + scene +
                             " --set 'Study/Vary=Mesh/Angular cells = 24 | 48 | 96 | 3000' --set "
@@ -328,7 +328,7 @@ TEST_F(StudyOnProcesses, LetTheFirstWriteAllBeforeTheyEnd) {
   std::ofstream(directory / "rank.sh")
       << study << " &\nuntil grep -q ^96, '" << (directory / "out" / "study.csv").string()
       << "' 2>/dev/null; do sleep 0.1; done\nkill -TERM $!\nwait $!\n";
-  const Outcome outcome = shell("PATH='" + directory.string() + "':$PATH timeout 60 " +
+  const Outcome outcome = shell("export PATH='" + directory.string() + "':$PATH; timeout 60 " +
                                 on_processes(2) + "sh '" + (directory / "rank.sh").string() + "'");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_NE(outcome.text.find("interrupted after 3 of 4 runs"), std::string::npos) << outcome.text;
