@@ -1,5 +1,6 @@
 #include "force_lines.h"
 
+#include "force_integrals.h"
 #include "interpolation.h"
 
 #include <algorithm>
@@ -67,14 +68,6 @@ std::vector<double> all_radii(const std::vector<ForceColumn>& columns,
   return radii;
 }
 
-/// G at a radius.
-double integral(const ForceColumn& column, double r) {
-  const ForcePiece& piece = column[piece_at(column, r, column.size() - 1)];
-  const auto integrals = legendre_integrals(piece.begin, piece.end, r);
-  return std::inner_product(integrals.begin(), integrals.end(), piece.coefficients.begin(),
-                            piece.outside);
-}
-
 } // namespace
 
 ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
@@ -115,11 +108,19 @@ double missed_along_z(const Quadrature<1>& rule, const std::vector<ForceColumn>&
   const std::vector<double> radii = all_radii(columns, others, extent);
   std::vector<unsigned int> piece(columns.size()), piece_of_other(others.size());
   std::vector<ForcePiece::Coefficients> of_others(others.size());
+  ForceAtRadii at_end({radii.back()});
+  const auto integral_beyond = [&at_end](const ForceColumn& column) {
+    std::vector<double> value;
+    at_end.integrals(column, value);
+    return value.front();
+  };
+  std::vector<double> others_beyond(others.size());
+  std::transform(others.begin(), others.end(), others_beyond.begin(), integral_beyond);
   double outside_squared = 0;
   for (unsigned int p = 0; p < columns.size(); ++p) {
-    double missed = integral(columns[p], radii.back());
+    double missed = integral_beyond(columns[p]);
     for (unsigned int i = 0; i < others.size(); ++i)
-      missed -= from_others(p, i) * integral(others[i], radii.back());
+      missed -= from_others(p, i) * others_beyond[i];
     outside_squared += rule.weight(p) * missed * missed;
   }
   double outside = std::sqrt(outside_squared), largest = 0;
