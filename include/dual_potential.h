@@ -2,6 +2,7 @@
 #define ROLLWAVE_DUAL_POTENTIAL_H
 
 #include "edge_pressure.h"
+#include "force_jumps.h"
 #include "radial_shapes.h"
 #include "ring_space.h"
 #include "symmetric_solver.h"
@@ -63,8 +64,10 @@ private:
 /// What ties the nodal values of a potential: given on r = b by the pressures, growing in a period,
 /// continuous elsewhere.
 /// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
+/// @param jumps those of the PotentialKinks that are added
 dealii::AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
-                                                        const std::vector<EdgePressure>& pressures);
+                                                        const std::vector<EdgePressure>& pressures,
+                                                        const ForceJumps& jumps);
 
 } // namespace rollwave
 

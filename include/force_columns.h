@@ -2,6 +2,7 @@
 #define ROLLWAVE_FORCE_COLUMNS_H
 
 #include "force_integrals.h"
+#include "force_jumps.h"
 #include "force_lines.h"
 #include "interval_map.h"
 
@@ -19,8 +20,9 @@ class ForceColumns {
 public:
   /// @param gauss for a cell's angular interval [0, 1]
   /// @param extents those of the cells
+  /// @param jumps where the lines' rules have to be exact
   ForceColumns(const Scene& scene, const ForceInterpolant& force, const dealii::QGauss<1>& gauss,
-               const RadialExtents& extents);
+               const RadialExtents& extents, const ForceJumps& jumps);
 
   /// Those of the angular interval [begin, end].
   const ForceLines& on(double begin, double end);
@@ -41,6 +43,7 @@ public:
 private:
   const ForceInterpolant& force;
   const RadialExtents& extents;
+  const ForceJumps& jumps;
   const FinerRule within_panel;
   const double negligible; ///< root mean square over z of what is missed of G
   IntervalMap<ForceLines> lines;

@@ -15,11 +15,13 @@ struct ForceContribution {
   /// @param constraints those of potential_constraints(), with any pressures
   /// @param columns of Gauss' rule with degree + 2 points
   ForceContribution(const RingSpace& space, const dealii::AffineConstraints<double>& constraints,
-                    RadialShapesOfMesh& shapes, ForceColumns& columns);
+                    RadialShapesOfMesh& shapes, ForceColumns& columns, const ForceJumps& jumps);
 
-  FieldVector to_potential;       ///< int G psi_z / r dr dz
-  std::vector<double> to_bubbles; ///< int G P psi_i / r dr dz, i from the hub, for each active cell
-  double missed;                  ///< MissedMoment
+  /// int [(G - y_z) psi_z / r dr - y_s psi_s ds] dz, y the PotentialKinks
+  FieldVector to_potential;
+  /// The same for the products of bubbles and psi_i, i from the hub, for each active cell
+  std::vector<double> to_bubbles;
+  double missed; ///< MissedMoment
 };
 
 } // namespace rollwave

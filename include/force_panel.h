@@ -106,6 +106,10 @@ private:
   Missed weigh(const Scene& scene, const MeanSquares& squares, double mean, double more) const;
 };
 
+/// The point of a panel's side at this share of it, but not so close to an end that a jump there,
+/// placed with a rounding error, may be on the wrong side.
+double panel_point(double begin, double end, double share);
+
 /// C^2 of Friedrichs' inequality ||w|| <= C |w|.
 double friedrichs_squared(const Scene& scene);
 

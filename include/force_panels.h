@@ -7,8 +7,8 @@
 
 namespace rollwave {
 
-/// The panels of a ring: itself, and halves of those that were halved, which follow their whole.
-/// The parts, which are those that were not, cover the ring.
+/// The panels of a ring: itself, and the two into which each was cut that was, which follow their
+/// whole. The parts, which are those that were not cut, cover the ring.
 class ForcePanels {
 public:
   explicit ForcePanels(const Scene& scene);
@@ -16,9 +16,13 @@ public:
   ForcePanel& operator[](unsigned int number) { return nodes[number].panel; }
   const ForcePanel& operator[](unsigned int number) const { return nodes[number].panel; }
   unsigned int size() const { return nodes.size(); }
-  bool is_part(unsigned int number) const { return nodes[number].first_half == 0; }
+  bool is_part(unsigned int number) const { return nodes[number].inner == 0; }
 
-  /// Adds the inner and the outer half of a part, in this order, and @returns the former's number.
+  /// Cuts a part in two: adds the inner and the outer one, in this order, and @returns the former's
+  /// number.
+  unsigned int cut(const Scene& scene, unsigned int number, unsigned int direction, double place);
+
+  /// Cuts it in the middle.
   unsigned int halve(const Scene& scene, unsigned int number, unsigned int direction);
 
   /// The numbers of the parts on the line z in [0, 2 pi), beyond a radius, from the hub outwards.
@@ -31,19 +35,25 @@ public:
   /// The angles in ]begin, end[ where parts end, in order, beyond the radius @p radius.
   std::vector<double> ends(double begin, double end, double radius) const;
 
+  /// The angles in [0, 2 pi) where f jumps on a line z = const, in order, as far as parts end
+  /// there.
+  std::vector<double> jumps() const;
+
   /// C ||f||, a bound of (f, w) / |w|, if all parts are judged.
   double friedrichs_norm(const Scene& scene) const;
 
 private:
   struct Node {
     ForcePanel panel;
-    unsigned int first_half = 0; ///< its number, the second follows; 0: none
-    unsigned int direction = 0;  ///< in which the panel was halved
+    unsigned int inner = 0;     ///< the number of the inner one, the outer follows; 0: none
+    unsigned int direction = 0; ///< in which the panel was cut
+    bool jumps = false;         ///< f does where it was cut
   };
 
   void collect(unsigned int number, double z, double begin, std::vector<unsigned int>& line) const;
 
   std::vector<Node> nodes;
+  bool jumps_at_period; ///< whether f does from 2 pi to 0
 };
 
 } // namespace rollwave

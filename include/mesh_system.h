@@ -33,6 +33,7 @@ struct DualParts {
   RadialShapesOfMesh shapes;
   const RadialExtents extents;                 ///< of no cells without an uneven force
   std::optional<ForceInterpolant> interpolant; ///< nullopt without force
+  ForceJumps jumps;                            ///< none without an uneven force
   const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
   std::optional<ForceColumns> columns;         ///< with lines at its points
 

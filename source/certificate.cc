@@ -7,6 +7,7 @@
 #include "interval_map.h"
 #include "mesh_system.h"
 #include "parameters.h"
+#include "potential_kinks.h"
 #include "scene.h"
 #include "work.h"
 
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -76,9 +78,11 @@ struct LineIntegrals {
 class Integrator {
 public:
   Integrator(const RingSpace& space, const FieldVector& displacement, const FieldVector& potential,
-             const AngularBubbles& bubbles, RadialShapesOfMesh& shapes, ForceColumns* columns)
+             const AngularBubbles& bubbles, RadialShapesOfMesh& shapes, ForceColumns* columns,
+             const ForceJumps& jumps)
       : displacement(displacement), potential(potential), bubbles(bubbles), shapes(shapes),
-        columns(columns), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
+        columns(columns), jumps(jumps),
+        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()), n(element.degree + 1),
         lagrange(lobatto_lagrange(element.degree)),
         beta(AngularBubbles::mode(element.degree).primitive()), dofs(n * n), ordered(n * n),
@@ -112,6 +116,7 @@ public:
     else {
       lines = &columns->on(low[1], high[1]);
       at_radii = &columns->at_radii(low[0], high[0], *radial);
+      kinks = kinks_of_cell(jumps, low, high, n - 1);
     }
   }
 
@@ -181,6 +186,8 @@ private:
       line_psi[i] += length * angular.bubble * g[i];
       line_psi_z[i] = per_length * line_psi_z[i] + angular.mode * g[i];
     }
+    if (kinks)
+      kinks->add_to(angular.t, line_psi.data(), line_psi_z.data());
     const double correction_r = correction.value * per_height;
     double bound_squared = 0, norm_squared = 0, work_of_force = 0, work_of_rest = 0;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
@@ -219,6 +226,7 @@ private:
   const AngularBubbles& bubbles;
   RadialShapesOfMesh& shapes;
   ForceColumns* columns;
+  const ForceJumps& jumps;
   const FE_Q<2>& element;
   const std::vector<unsigned int> numbering;
   const unsigned int n;
@@ -233,6 +241,7 @@ private:
   const RadialShapes* radial = nullptr;
   const ForceLines* lines = nullptr; ///< of a force that is no number
   ForceAtRadii* at_radii = nullptr;
+  std::optional<PotentialKinks> kinks;                ///< where there are any
   std::vector<double> moments;                        ///< G on a line
   const std::vector<double>* equal_moments = nullptr; ///< of a number
 };
@@ -269,9 +278,10 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto pressures = edge_pressures(space, scene, contact);
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
-  const AffineConstraints<double> constraints = potential_constraints(space, scene, pressures);
+  const AffineConstraints<double> constraints =
+      potential_constraints(space, scene, pressures, dual.jumps);
   if (is_uneven && !dual.of_force)
-    dual.of_force.emplace(space, constraints, dual.shapes, *columns);
+    dual.of_force.emplace(space, constraints, dual.shapes, *columns, dual.jumps);
   const FieldVector potential = system.potential->solve(
       scene, dual.shapes, constraints, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
@@ -282,7 +292,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto& triangulation = space.dof_handler().get_triangulation();
   const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,
                                is_uneven ? &dual.of_force->to_bubbles : nullptr, *dual.bubbles);
-  Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns);
+  Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns, dual.jumps);
   const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
   IntervalMap<std::vector<AngularShapes>> exact_shapes;
   std::vector<double> cell_bounds(triangulation.n_active_cells());
@@ -346,6 +356,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   if (!system.is_kept)
     system.dual.reset();
   const double eta = of_flux + missed;
+  if (getenv("PJ"))
+    std::fprintf(stderr, "flux %g missed %g epsilon %g\n", of_flux, missed, epsilon);
   const double energy_norm = epsilon + eta;
   const double energy = norm_squared / 2 - work_of_force;
   const double round_off = 1e-15 * (norm_squared + std::abs(work_of_force));

@@ -1,6 +1,7 @@
 #include "dual_potential.h"
 
 #include "edge_constraints.h"
+#include "potential_kinks.h"
 #include "potential_shapes.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -43,7 +44,8 @@ std::vector<std::vector<double>> surface_potential(const RingSpace& space,
 } // namespace
 
 AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
-                                                const std::vector<EdgePressure>& pressures) {
+                                                const std::vector<EdgePressure>& pressures,
+                                                const ForceJumps& jumps) {
   double growth = 0;
   const auto surface_values = surface_potential(space, pressures, growth);
   AffineConstraints<double> constraints(space.relevant_dofs());
@@ -68,7 +70,12 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
           PotentialShapes(scene, space.dof_handler().get_fe().degree, begin, end).values(r);
     return entry->second;
   };
-  tie_edges(space, shape_values, growth, constraints);
+  const auto kinks = [&](double r, double z, double begin, double end) {
+    double value = 0, derivative = 0;
+    PotentialKinks(jumps, begin, end, {r}).add_to((z - begin) / (end - begin), &value, &derivative);
+    return value;
+  };
+  tie_edges(space, shape_values, growth, kinks, constraints);
   constraints.close();
   return constraints;
 }

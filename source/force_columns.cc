@@ -13,8 +13,9 @@ namespace rollwave {
 using namespace dealii;
 
 ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
-                           const QGauss<1>& gauss, const RadialExtents& extents)
-    : force(force), extents(extents),
+                           const QGauss<1>& gauss, const RadialExtents& extents,
+                           const ForceJumps& jumps)
+    : force(force), extents(extents), jumps(jumps),
       within_panel(gauss,
                    QGauss<1>(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()))),
       // of (int w^2 / r dr dz)^(1/2) over the ring
@@ -24,7 +25,8 @@ ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
 
 const ForceLines& ForceColumns::on(double begin, double end) {
   return lines.at(begin, end, [&] {
-    return ForceLines(force, begin, end, within_panel, negligible, extents.of(begin, end));
+    return ForceLines(force, begin, end, within_panel,
+                      jumps.within(begin, end).empty() ? negligible : 0, extents.of(begin, end));
   });
 }
 

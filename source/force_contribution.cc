@@ -3,7 +3,9 @@
 #include "angular_bubbles.h"
 #include "interval_map.h"
 #include "missed_moment.h"
+#include "potential_kinks.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace rollwave {
@@ -16,26 +18,31 @@ namespace {
 struct WeightedShapes {
   WeightedShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
                  const Polynomials::Polynomial<double>& bubble_mode, const Quadrature<1>& rule)
-      : slope(rule.size(), lagrange.size()), mode(rule.size()) {
+      : value(rule.size(), lagrange.size()), slope(value), bubble(rule.size()), mode(rule.size()) {
+    const auto beta = bubble_mode.primitive();
     std::vector<double> both(2);
     for (unsigned int p = 0; p < rule.size(); ++p) {
       for (unsigned int j = 0; j < lagrange.size(); ++j) {
         lagrange[j].value(rule.point(p)[0], both);
+        value(p, j) = rule.weight(p) * both[0];
         slope(p, j) = rule.weight(p) * both[1];
       }
-      mode[p] = rule.weight(p) * bubble_mode.value(rule.point(p)[0]);
+      beta.value(rule.point(p)[0], both);
+      bubble[p] = rule.weight(p) * both[0];
+      mode[p] = rule.weight(p) * both[1];
     }
   }
 
-  FullMatrix<double> slope; ///< of the element's shape functions
-  std::vector<double> mode; ///< of the bubbles
+  FullMatrix<double> value, slope;  ///< of the element's shape functions
+  std::vector<double> bubble, mode; ///< of the bubbles: beta and P
 };
 
 } // namespace
 
 ForceContribution::ForceContribution(const RingSpace& space,
                                      const AffineConstraints<double>& constraints,
-                                     RadialShapesOfMesh& shapes, ForceColumns& columns)
+                                     RadialShapesOfMesh& shapes, ForceColumns& columns,
+                                     const ForceJumps& jumps)
     : to_potential(space.make_field()) {
   const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
@@ -48,7 +55,7 @@ ForceContribution::ForceContribution(const RingSpace& space,
   to_bubbles.resize(n * space.dof_handler().get_triangulation().n_active_cells());
   std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
   Vector<double> cell_vector(n * n);
-  std::vector<double> loads(n);
+  std::vector<double> loads(n), kinked(n), kinked_z(n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
@@ -58,15 +65,32 @@ ForceContribution::ForceContribution(const RingSpace& space,
     const auto make_shapes = [&] { return WeightedShapes(lagrange, bubble_mode, lines.rule); };
     if (!lines.is_exact() && !of_gauss)
       of_gauss = make_shapes();
-    const auto& [slope, mode] =
+    const auto& [value, slope, bubble, mode] =
         lines.is_exact() ? of_exact_rules.at(low[1], high[1], make_shapes) : *of_gauss;
     ForceLoads& force_loads = columns.loads(low[0], high[0], radial);
     double* const to_bubble = &to_bubbles[n * cell->active_cell_index()];
+    const auto kinks = kinks_of_cell(jumps, low, high, element.degree);
+    const double length = high[1] - low[1];
     cell_vector = 0;
     for (unsigned int p = 0; p < lines.columns.size(); ++p) {
       force_loads.integrate(lines.columns[p], loads);
+      if (kinks) {
+        std::fill(kinked.begin(), kinked.end(), 0.);
+        std::fill(kinked_z.begin(), kinked_z.end(), 0.);
+        kinks->add_to(lines.rule.point(p)[0], kinked.data(), kinked_z.data());
+        for (unsigned int i = 0; i < n; ++i) {
+          double of_depth = 0;
+          for (unsigned int k = 0; k < n; ++k) {
+            loads[i] -= radial.products.mass(i, k) * kinked_z[k];
+            of_depth += radial.products.stiffness(i, k) * kinked[k];
+          }
+          to_bubble[i] -= length * length * bubble[p] * of_depth;
+          for (unsigned int j = 0; j < n; ++j)
+            cell_vector(i + n * j) -= length * value(p, j) * of_depth;
+        }
+      }
       for (unsigned int i = 0; i < n; ++i) {
-        to_bubble[i] += (high[1] - low[1]) * mode[p] * loads[i];
+        to_bubble[i] += length * mode[p] * loads[i];
         for (unsigned int j = 0; j < n; ++j)
           cell_vector(i + n * j) += slope(p, j) * loads[i];
       }

@@ -43,14 +43,6 @@ const PanelPoints& points() {
   return all;
 }
 
-/// The point of an interval at this share of it, but not so close to an end that a jump there,
-/// placed with a rounding error, may be on the wrong side.
-double point_within(double begin, double end, double share) {
-  const double roundings =
-      std::min(2e-15 * std::max(std::abs(begin), std::abs(end)), (end - begin) / 4);
-  return std::clamp(begin + share * (end - begin), begin + roundings, end - roundings);
-}
-
 /// r f
 double moment(const Scene& scene, double r, double z) {
   const double f = scene.force(r, z);
@@ -61,8 +53,8 @@ double moment(const Scene& scene, double r, double z) {
 
 /// r f at a point given by shares of a panel's sides.
 double moment(const Scene& scene, const ForcePanel& panel, const Point<2>& share) {
-  return moment(scene, point_within(panel.low[0], panel.high[0], share[0]),
-                point_within(panel.low[1], panel.high[1], share[1]));
+  return moment(scene, panel_point(panel.low[0], panel.high[0], share[0]),
+                panel_point(panel.low[1], panel.high[1], share[1]));
 }
 
 /// Of what is given at the points of a product of a rule.
@@ -96,6 +88,12 @@ ForcePanel::MeanSquares mean_squares(const FullMatrix<double>& values, const Qua
 }
 
 } // namespace
+
+double panel_point(double begin, double end, double share) {
+  const double roundings =
+      std::min(2e-15 * std::max(std::abs(begin), std::abs(end)), (end - begin) / 4);
+  return std::clamp(begin + share * (end - begin), begin + roundings, end - roundings);
+}
 
 double friedrichs_squared(const Scene& scene) {
   return contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius);

@@ -2,6 +2,7 @@
 
 #include "load_points.h"
 #include "scene.h"
+#include "straight_jump.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -185,7 +186,9 @@ void Chooser::halve_the_worst(unsigned int most) {
     const unsigned int direction = panels[i].rougher_direction();
     if (!is_divisible(panels[i], direction))
       continue; // a jump between neighbouring numbers
-    const unsigned int first_half = panels.halve(scene, i, direction);
+    const auto jump = straight_jump(scene, panels[i], direction);
+    const unsigned int first_half =
+        jump ? panels.cut(scene, i, direction, *jump) : panels.halve(scene, i, direction);
     add(first_half);
     add(first_half + 1);
   }

@@ -1,6 +1,7 @@
 #include "force_panels.h"
 
 #include "scene.h"
+#include "straight_jump.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -15,19 +16,32 @@ using namespace dealii;
 ForcePanels::ForcePanels(const Scene& scene) {
   nodes.push_back({ForcePanel(scene, Point<2>(scene.inner_radius, 0),
                               Point<2>(scene.outer_radius, 2 * numbers::PI))});
+  const ForcePanel& all = nodes[0].panel;
+  jumps_at_period = jumps_between(scene, all, 1, panel_point(all.low[1], all.high[1], 1),
+                                  panel_point(all.low[1], all.high[1], 0));
+}
+
+unsigned int ForcePanels::cut(const Scene& scene, unsigned int number, unsigned int direction,
+                              double place) {
+  const ForcePanel& whole = nodes[number].panel;
+  Point<2> low = whole.low, high = whole.high;
+  low[direction] = high[direction] = place;
+  const bool jumps =
+      jumps_between(scene, whole, direction, panel_point(whole.low[direction], place, 1),
+                    panel_point(place, whole.high[direction], 0));
+  ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
+  const unsigned int number_of_inner = nodes.size();
+  nodes[number].inner = number_of_inner;
+  nodes[number].direction = direction;
+  nodes[number].jumps = jumps;
+  nodes.push_back({std::move(inner)});
+  nodes.push_back({std::move(outer)});
+  return number_of_inner;
 }
 
 unsigned int ForcePanels::halve(const Scene& scene, unsigned int number, unsigned int direction) {
   const ForcePanel& whole = nodes[number].panel;
-  Point<2> low = whole.low, high = whole.high;
-  low[direction] = high[direction] = (low[direction] + high[direction]) / 2;
-  ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
-  const unsigned int first_half = nodes.size();
-  nodes[number].first_half = first_half;
-  nodes[number].direction = direction;
-  nodes.push_back({std::move(inner)});
-  nodes.push_back({std::move(outer)});
-  return first_half;
+  return cut(scene, number, direction, (whole.low[direction] + whole.high[direction]) / 2);
 }
 
 std::vector<unsigned int> ForcePanels::on(double z, double begin) const {
@@ -39,18 +53,18 @@ std::vector<unsigned int> ForcePanels::on(double z, double begin) const {
 
 void ForcePanels::collect(unsigned int number, double z, double begin,
                           std::vector<unsigned int>& line) const {
-  const auto& [panel, first_half, direction] = nodes[number];
+  const auto& [panel, inner, direction, jumps] = nodes[number];
   if (panel.high[0] <= begin)
     return;
-  if (first_half == 0) {
+  if (inner == 0) {
     line.push_back(number);
     return;
   }
-  const bool both = direction == 0, is_inner = z < nodes[first_half].panel.high[1];
+  const bool both = direction == 0, is_inner = z < nodes[inner].panel.high[1];
   if (both || is_inner)
-    collect(first_half, z, begin, line);
+    collect(inner, z, begin, line);
   if (both || !is_inner)
-    collect(first_half + 1, z, begin, line);
+    collect(inner + 1, z, begin, line);
 }
 
 ForceColumn ForcePanels::column(const std::vector<unsigned int>& line, double z, double end) const {
@@ -102,6 +116,18 @@ std::vector<double> ForcePanels::ends(double begin, double end, double radius) c
       z = 0;
     }
   }
+}
+
+std::vector<double> ForcePanels::jumps() const {
+  std::vector<double> angles;
+  if (jumps_at_period)
+    angles.push_back(0);
+  for (const auto& [panel, inner, direction, jumps] : nodes)
+    if (jumps && direction == 1)
+      angles.push_back(nodes[inner].panel.high[1]);
+  std::sort(angles.begin(), angles.end());
+  angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
+  return angles;
 }
 
 double ForcePanels::friedrichs_norm(const Scene& scene) const {

@@ -11,8 +11,10 @@ DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::stri
                                                                 moments, extents)
                               : std::nullopt),
       gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
+  if (has_uneven_force())
+    jumps = ForceJumps(*interpolant, scene, extents);
   if (interpolant)
-    columns.emplace(scene, *interpolant, gauss, extents);
+    columns.emplace(scene, *interpolant, gauss, extents, jumps);
 }
 
 bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {

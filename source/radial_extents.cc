@@ -1,6 +1,7 @@
 #include "radial_extents.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +33,15 @@ RadialExtents::RadialExtents(const RingSpace& space) {
 RadialExtent RadialExtents::of(double begin, double end) const {
   const auto entry = known.entries().find({begin, end});
   return entry == known.entries().end() ? RadialExtent() : entry->second;
+}
+
+std::vector<CellColumn> RadialExtents::around(double z) const {
+  std::vector<CellColumn> columns;
+  for (const auto& [interval, radii] : known.entries())
+    for (const double turn : {0., 2 * numbers::PI})
+      if (interval.first < turn + z && turn + z < interval.second)
+        columns.push_back({interval.first - turn, interval.second - turn, radii});
+  return columns;
 }
 
 } // namespace rollwave

@@ -294,7 +294,7 @@ TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
   for (const double share : {-0.01, 0.01}) {
     const double at = line + share * cell;
     const CertifiedError coarse = certify_jump(at, 4, 48);
-    const CertifiedError fine = certify_jump(at, 2, 4800); // on which the jump is a line
+    const CertifiedError fine = certify_jump(at, 4, 4800); // on which the jump is a line
     EXPECT_LE(coarse.lower_bound, fine.upper_bound) << share;
     EXPECT_GE(coarse.upper_bound, fine.lower_bound) << share;
     EXPECT_LT(fine.upper_bound - fine.lower_bound, 0.1 * (coarse.upper_bound - coarse.lower_bound));

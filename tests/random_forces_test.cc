@@ -73,8 +73,10 @@ TEST(RandomForces, HaveEnclosuresOfTheEnergyThatMeet) {
         "Cylinder/Angular velocity=" + draw.one_of<std::string>({"0", "0.5", "0.9", "1"}),
         "Road/Distance=" + draw.one_of<std::string>({a < 0.8 ? "0.85" : "0.995", "1", "1.3"}),
         "Mesh/Degree=" + std::to_string(degree), "Cylinder/Radial force=" + force};
+    const int cycles = draw.count(0, 3);
     const auto certify = [&](int factor) {
       std::vector<std::string> settings = common;
+      settings.push_back("Mesh/Adaptive cycles=" + std::to_string(cycles));
       settings.push_back("Mesh/Radial cells=" + std::to_string(factor * radial));
       settings.push_back("Mesh/Angular cells=" + std::to_string(factor * angular + factor - 1));
       const Parameters parameters = parameters_of(settings);
