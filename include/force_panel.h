@@ -54,6 +54,9 @@ struct ForcePanel {
   /// @throws BadInput where f is not finite
   void judge(const Scene& scene);
 
+  /// The root mean square of rho f_0, over the least radius: f's size.
+  double size_of_force() const { return coefficients.frobenius_norm() / low[0]; }
+
   double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
 
   /// Looks at m on the middle line in a direction as well, at these coordinates. Where its variance
@@ -105,10 +108,6 @@ private:
   /// Where more is left out, along either direction.
   Missed weigh(const Scene& scene, const MeanSquares& squares, double mean, double more) const;
 };
-
-/// The point of a panel's side at this share of it, but not so close to an end that a jump there,
-/// placed with a rounding error, may be on the wrong side.
-double panel_point(double begin, double end, double share);
 
 /// C^2 of Friedrichs' inequality ||w|| <= C |w|.
 double friedrichs_squared(const Scene& scene);

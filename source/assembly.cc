@@ -2,15 +2,19 @@
 
 #include "errors.h"
 #include "interval_map.h"
+#include "load_breaks.h"
 #include "processes.h"
 #include "radial_rule.h"
 #include "scene.h"
 #include "shape_products.h"
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rollwave {
 
@@ -69,8 +73,43 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
   }
 }
 
+namespace {
+
+/// The ends of the parts into which places, that may come back after each @p period, cut an
+/// interval.
+std::vector<double> ends_of_parts(double begin, double end, const std::vector<double>& places,
+                                  double period) {
+  std::vector<double> ends = {begin};
+  for (double turn = 0; turn < end; turn += period)
+    for (auto place = std::upper_bound(places.begin(), places.end(), begin - turn);
+         place != places.end() && turn + *place < end; ++place)
+      if (turn + *place > begin)
+        ends.push_back(turn + *place);
+  ends.push_back(end);
+  return ends;
+}
+
+/// Adds int r f phi_i dr dz over a rectangle of a cell.
+void add_load(const Scene& scene, const FiniteElement<2>& element, const QGauss<2>& gauss,
+              const BoundingBox<2>& cell, const BoundingBox<2>& part, Vector<double>& load) {
+  for (unsigned int q = 0; q < gauss.size(); ++q) {
+    const Point<2> point = part.unit_to_real(gauss.point(q));
+    const double moment = point[0] * scene.force(point[0], std::fmod(point[1], 2 * numbers::PI));
+    for (unsigned int i = 0; i < load.size(); ++i)
+      load(i) += gauss.weight(q) * part.volume() * moment *
+                 element.shape_value(i, cell.real_to_unit(point));
+  }
+}
+
+} // namespace
+
 Load assemble_load(const RingSpace& space, const Scene& scene) {
   const auto& element = space.dof_handler().get_fe();
+  const LoadBreaks breaks =
+      scene.uniform_force
+          ? LoadBreaks()
+          : find_load_breaks(scene, space.dof_handler().get_triangulation().n_global_active_cells(),
+                             space.communicator());
   const QGauss<2> gauss(element.degree + 1);
   FEValues<2> values(space.mapping(), element, gauss,
                      update_values | update_quadrature_points | update_JxW_values);
@@ -98,6 +137,18 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
         load.moments.push_back(r * f);
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
+    }
+    const BoundingBox<2> box = cell->bounding_box();
+    const auto radii = ends_of_parts(box.lower_bound(0), box.upper_bound(0), breaks.radii,
+                                     std::numeric_limits<double>::infinity()),
+               angles = ends_of_parts(box.lower_bound(1), box.upper_bound(1), breaks.angles,
+                                      2 * numbers::PI);
+    if (radii.size() > 2 || angles.size() > 2) {
+      cell_vector = 0;
+      for (unsigned int i = 0; i + 1 < radii.size(); ++i)
+        for (unsigned int j = 0; j + 1 < angles.size(); ++j)
+          add_load(scene, element, gauss, box,
+                   {{{radii[i], angles[j]}, {radii[i + 1], angles[j + 1]}}}, cell_vector);
     }
     cell->get_dof_indices(dofs);
     space.constraints().distribute_local_to_global(cell_vector, dofs, load.vector);

@@ -3,6 +3,7 @@
 #include "contact_free.h"
 #include "errors.h"
 #include "scene.h"
+#include "straight_jump.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -53,8 +54,8 @@ double moment(const Scene& scene, double r, double z) {
 
 /// r f at a point given by shares of a panel's sides.
 double moment(const Scene& scene, const ForcePanel& panel, const Point<2>& share) {
-  return moment(scene, panel_point(panel.low[0], panel.high[0], share[0]),
-                panel_point(panel.low[1], panel.high[1], share[1]));
+  return moment(scene, point_within(panel.low[0], panel.high[0], share[0]),
+                point_within(panel.low[1], panel.high[1], share[1]));
 }
 
 /// Of what is given at the points of a product of a rule.
@@ -88,12 +89,6 @@ ForcePanel::MeanSquares mean_squares(const FullMatrix<double>& values, const Qua
 }
 
 } // namespace
-
-double panel_point(double begin, double end, double share) {
-  const double roundings =
-      std::min(2e-15 * std::max(std::abs(begin), std::abs(end)), (end - begin) / 4);
-  return std::clamp(begin + share * (end - begin), begin + roundings, end - roundings);
-}
 
 double friedrichs_squared(const Scene& scene) {
   return contact_free_unit_displacement(scene.inner_radius, scene.outer_radius, scene.outer_radius);

@@ -186,7 +186,7 @@ void Chooser::halve_the_worst(unsigned int most) {
     const unsigned int direction = panels[i].rougher_direction();
     if (!is_divisible(panels[i], direction))
       continue; // a jump between neighbouring numbers
-    const auto jump = straight_jump(scene, panels[i], direction);
+    const auto jump = straight_jump(scene, panels[i].low, panels[i].high, direction);
     const unsigned int first_half =
         jump ? panels.cut(scene, i, direction, *jump) : panels.halve(scene, i, direction);
     add(first_half);

@@ -17,8 +17,9 @@ ForcePanels::ForcePanels(const Scene& scene) {
   nodes.push_back({ForcePanel(scene, Point<2>(scene.inner_radius, 0),
                               Point<2>(scene.outer_radius, 2 * numbers::PI))});
   const ForcePanel& all = nodes[0].panel;
-  jumps_at_period = jumps_between(scene, all, 1, panel_point(all.low[1], all.high[1], 1),
-                                  panel_point(all.low[1], all.high[1], 0));
+  jumps_at_period =
+      jumps_between(scene, all.low, all.high, 1, point_within(all.low[1], all.high[1], 1),
+                    point_within(all.low[1], all.high[1], 0), all.size_of_force());
 }
 
 unsigned int ForcePanels::cut(const Scene& scene, unsigned int number, unsigned int direction,
@@ -26,9 +27,9 @@ unsigned int ForcePanels::cut(const Scene& scene, unsigned int number, unsigned 
   const ForcePanel& whole = nodes[number].panel;
   Point<2> low = whole.low, high = whole.high;
   low[direction] = high[direction] = place;
-  const bool jumps =
-      jumps_between(scene, whole, direction, panel_point(whole.low[direction], place, 1),
-                    panel_point(place, whole.high[direction], 0));
+  const bool jumps = jumps_between(
+      scene, whole.low, whole.high, direction, point_within(whole.low[direction], place, 1),
+      point_within(place, whole.high[direction], 0), whole.size_of_force());
   ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
   const unsigned int number_of_inner = nodes.size();
   nodes[number].inner = number_of_inner;

@@ -24,7 +24,7 @@ constexpr double a = 0.5, b = 1, PI = dealii::numbers::PI;
 std::optional<double> find_jump(const std::string& force, unsigned int direction) {
   const Scene scene =
       make_scene(with(paper_scenes()[0].parameters(), {"Cylinder/Radial force=" + force}));
-  return straight_jump(scene, ForcePanel(scene, {a, 0}, {b, 2 * PI}), direction);
+  return straight_jump(scene, {a, 0}, {b, 2 * PI}, direction);
 }
 
 } // namespace
