@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_ASSEMBLY_H
 #define ROLLWAVE_ASSEMBLY_H
 
+#include "load_breaks.h"
 #include "ring_space.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -32,13 +33,16 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
 struct Load {
   FieldVector vector; ///< f_i = int r f phi_i dr dz with the constraints applied
 
-  /// r f at the points of the rule on one own active cell after another, the radial index running
-  /// fastest; none when the force is a number
+  /// r f at the points of the rule for whole cells on one own active cell after another, the radial
+  /// index running fastest; none when the force is a number
   std::vector<double> moments;
+
+  LoadBreaks breaks; ///< none when the force is a number
 };
 
 /**
- * The load by Gauss' rule with degree + 1 points in each direction; the scene must have a force.
+ * The load by Gauss' rule with degree + 1 points in each direction, on each of the parts into which
+ * LoadBreaks cut a cell; the scene must have a force.
  *
  * @throws BadInput where f is not finite.
  */

@@ -12,6 +12,10 @@ struct Scene;
 /// Where f jumps on lines r = const and z = const, in order, as far as a mesh sees it.
 struct LoadBreaks {
   std::vector<double> radii, angles; ///< the latter in [0, 2 pi)
+
+  /// The ends of the parts into which they cut an interval.
+  std::vector<double> radial_ends(double begin, double end) const;
+  std::vector<double> angular_ends(double begin, double end) const;
 };
 
 /// Looks for straight_jump() on rectangles that have about a dozen cells in each direction. The

@@ -19,8 +19,9 @@ namespace rollwave {
 struct DualParts {
   /// @param force the text of the scene's force, empty without force
   /// @param moments those of its Load
+  /// @param breaks likewise
   DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-            const std::vector<double>& moments);
+            const std::vector<double>& moments, const LoadBreaks& breaks);
 
   /// Whether they are those of a scene with this force.
   bool belong_to(const Scene& scene, const std::string& force) const;
@@ -50,6 +51,7 @@ struct MeshSystem {
   std::unique_ptr<DualParts> dual;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::vector<double> moments;     ///< of the same Load
+  LoadBreaks breaks;               ///< likewise
   std::string force;               ///< the text of the force that the load belongs to
   bool is_kept = true; ///< whether another scene may come; else solvers go when they have solved
 };

@@ -2,7 +2,6 @@
 
 #include "errors.h"
 #include "interval_map.h"
-#include "load_breaks.h"
 #include "processes.h"
 #include "radial_rule.h"
 #include "scene.h"
@@ -12,9 +11,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rollwave {
 
@@ -75,20 +72,6 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
 
 namespace {
 
-/// The ends of the parts into which places, that may come back after each @p period, cut an
-/// interval.
-std::vector<double> ends_of_parts(double begin, double end, const std::vector<double>& places,
-                                  double period) {
-  std::vector<double> ends = {begin};
-  for (double turn = 0; turn < end; turn += period)
-    for (auto place = std::upper_bound(places.begin(), places.end(), begin - turn);
-         place != places.end() && turn + *place < end; ++place)
-      if (turn + *place > begin)
-        ends.push_back(turn + *place);
-  ends.push_back(end);
-  return ends;
-}
-
 /// Adds int r f phi_i dr dz over a rectangle of a cell.
 void add_load(const Scene& scene, const FiniteElement<2>& element, const QGauss<2>& gauss,
               const BoundingBox<2>& cell, const BoundingBox<2>& part, Vector<double>& load) {
@@ -105,17 +88,16 @@ void add_load(const Scene& scene, const FiniteElement<2>& element, const QGauss<
 
 Load assemble_load(const RingSpace& space, const Scene& scene) {
   const auto& element = space.dof_handler().get_fe();
-  const LoadBreaks breaks =
-      scene.uniform_force
-          ? LoadBreaks()
-          : find_load_breaks(scene, space.dof_handler().get_triangulation().n_global_active_cells(),
-                             space.communicator());
   const QGauss<2> gauss(element.degree + 1);
   FEValues<2> values(space.mapping(), element, gauss,
                      update_values | update_quadrature_points | update_JxW_values);
   Vector<double> cell_vector(element.n_dofs_per_cell());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  Load load = {space.make_field(), {}};
+  Load load = {space.make_field(), {}, {}};
+  if (!scene.uniform_force)
+    load.breaks =
+        find_load_breaks(scene, space.dof_handler().get_triangulation().n_global_active_cells(),
+                         space.communicator());
   std::string refusal;
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -139,10 +121,8 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
         cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
     }
     const BoundingBox<2> box = cell->bounding_box();
-    const auto radii = ends_of_parts(box.lower_bound(0), box.upper_bound(0), breaks.radii,
-                                     std::numeric_limits<double>::infinity()),
-               angles = ends_of_parts(box.lower_bound(1), box.upper_bound(1), breaks.angles,
-                                      2 * numbers::PI);
+    const auto radii = load.breaks.radial_ends(box.lower_bound(0), box.upper_bound(0)),
+               angles = load.breaks.angular_ends(box.lower_bound(1), box.upper_bound(1));
     if (radii.size() > 2 || angles.size() > 2) {
       cell_vector = 0;
       for (unsigned int i = 0; i + 1 < radii.size(); ++i)

@@ -266,7 +266,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const std::string force = scene.force ? system.force : "";
   if (!system.dual || !system.dual->belong_to(scene, force))
-    system.dual = std::make_unique<DualParts>(space, scene, force, system.moments);
+    system.dual = std::make_unique<DualParts>(space, scene, force, system.moments, system.breaks);
   DualParts& dual = *system.dual;
   const QGauss<1>& gauss = dual.gauss;
   const QGauss<1> along_road(degree + 6);

@@ -107,6 +107,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
     Load load = assemble_load(space, scene);
     system.load = std::move(load.vector);
     system.moments = std::move(load.moments);
+    system.breaks = std::move(load.breaks);
     system.force = force;
     ++work.load_assemblies;
   }

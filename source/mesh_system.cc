@@ -3,9 +3,9 @@
 namespace rollwave {
 
 DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-                     const std::vector<double>& moments)
+                     const std::vector<double>& moments, const LoadBreaks& breaks)
     : angular_velocity(scene.angular_velocity), force(force),
-      shapes(scene, space.dof_handler().get_fe().degree),
+      shapes(scene, space.dof_handler().get_fe().degree, breaks),
       extents(scene.has_uneven_force() ? RadialExtents(space) : RadialExtents()),
       interpolant(scene.force ? std::optional<ForceInterpolant>(std::in_place, space, scene,
                                                                 moments, extents)

@@ -2,7 +2,6 @@
 
 #include "force_integrals.h"
 #include "interpolation.h"
-#include "radial_rule.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
@@ -19,9 +18,11 @@ using namespace dealii;
 /// The rule of a radial interval and a finer one.
 class MissedMoment::RadialRules {
 public:
-  RadialRules(double begin, double end, const QGauss<1>& gauss, const std::vector<double>& radii)
-      : rules(gauss, QIterated<1>(gauss, 2)), rule(graded_rule(begin, end, rules.fine)),
-        radii(radii), at_radii(radii), at_fine_radii(rule.r) {}
+  RadialRules(double begin, double end, const RadialShapesOfMesh& shapes,
+              const std::vector<double>& radii)
+      : rules(shapes.gauss(begin, end), QIterated<1>(shapes.gauss(begin, end), 2)),
+        rule(shapes.rule(begin, end, rules.fine)), radii(radii), at_radii(radii),
+        at_fine_radii(rule.r) {}
 
   /// int w^2 / r dr of what is missed of G on a line, or a bound of it.
   double missed_square(const ForceColumn& line) {
@@ -92,7 +93,7 @@ void MissedMoment::add_cell(const Point<2>& low, const Point<2>& high, const For
   const double length = high[1] - low[1];
   along_z += lines.missed_mean_square * length * std::log(high[0] / low[0]);
   RadialRules& rules = *radial_rules.at(low[0], high[0], [&] {
-    return std::make_unique<RadialRules>(low[0], high[0], shapes.gauss(low[0], high[0]), radial.r);
+    return std::make_unique<RadialRules>(low[0], high[0], shapes, radial.r);
   });
   for (unsigned int p = 0; p < lines.columns.size(); ++p)
     along_r += lines.rule.weight(p) * length * rules.missed_square(lines.columns[p]);

@@ -1,7 +1,6 @@
 #include "radial_shapes.h"
 
 #include "potential_shapes.h"
-#include "radial_rule.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +34,9 @@ void RadialShapes::integrate_over_r(const std::vector<double>& w,
   }
 }
 
-RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
-    : scene(scene), lagrange(lobatto_lagrange(degree)) {}
+RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree,
+                                       const LoadBreaks& breaks)
+    : scene(scene), breaks(breaks), lagrange(lobatto_lagrange(degree)) {}
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
   return known.at(begin, end, [&] { return make(begin, end); });
@@ -46,8 +46,19 @@ QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
   return QGauss<1>(n_points(lagrange.size() - 1, end / begin));
 }
 
+RadialRule RadialShapesOfMesh::rule(double begin, double end, const Quadrature<1>& points) const {
+  const std::vector<double> ends = breaks.radial_ends(begin, end);
+  RadialRule rule;
+  for (unsigned int part = 0; part + 1 < ends.size(); ++part) {
+    const RadialRule on_part = graded_rule(ends[part], ends[part + 1], points);
+    rule.r.insert(rule.r.end(), on_part.r.begin(), on_part.r.end());
+    rule.weight.insert(rule.weight.end(), on_part.weight.begin(), on_part.weight.end());
+  }
+  return rule;
+}
+
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
-  const RadialRule rule = graded_rule(begin, end, gauss(begin, end));
+  const RadialRule rule = this->rule(begin, end, gauss(begin, end));
   RadialShapes shapes;
   const PotentialShapes potential_shapes(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;

@@ -94,6 +94,14 @@ std::vector<double> indicate(Indicator indicator, const Scene& scene, const Mesh
                                                             on_mesh.contact, on_mesh.displacement);
 }
 
+/// The indicator or, where that is larger, the cell's part of the bound: a load that is rough
+/// beyond some cells is so in G on them, which their residuals do not see.
+std::vector<double> larger_of(std::vector<double> indicators, const Certificate& certificate) {
+  for (unsigned int i = 0; i < indicators.size(); ++i)
+    indicators[i] = std::max(indicators[i], certificate.cell_bounds[i]);
+  return indicators;
+}
+
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
 /// nothing is changed, when the mesh would get too large or no cell is marked.
 bool refine(const Scene& scene, const std::vector<double>& indicators, const Parameters& parameters,
@@ -221,7 +229,11 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
       result.is_interrupted = is_interrupted(communicator);
     if (!is_finished && !result.is_interrupted) {
       const std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
-      if (refine(scene, indicators, parameters, continues && cycle == 0, solution)) {
+      const bool is_baseline = mesh.indicator == Indicator::kelly;
+      if (refine(scene,
+                 solution.certificate && !is_baseline ? larger_of(indicators, *solution.certificate)
+                                                      : indicators,
+                 parameters, continues && cycle == 0, solution)) {
         double squared = 0;
         for (const double eta : indicators)
           squared += eta * eta;
