@@ -16,9 +16,9 @@ struct Scene;
  *
  * They are halved until each has a small share of the mesh's cells, then the worst first until they
  * leave out 1e-5 of what is negligible, as many as the mesh pays for; in the direction in which f
- * is rougher. They are not halved either where even the mean of f would leave out a negligible
- * part. There f_0 becomes that mean, and m_0 the root mean square of m, unless the panel is
- * resolved.
+ * is rougher, or where it has a straight_jump(). They are not halved either where even the mean of
+ * f would leave out a negligible part. There f_0 becomes that mean, and m_0 the root mean square of
+ * m, unless the panel is resolved.
  *
  * The points of a panel may miss what the load sees. On panels that are lower than two cells and
  * longer than a dozen, or the other way round, m is taken on the middle line at each cell as well;

@@ -12,8 +12,7 @@ namespace rollwave {
 
 /**
  * What is added to a potential psi (DualPotential) on a cell within which G jumps along z, so that
- * G
- * - psi_z does not: for each ForceJump, at t_e = (z_e - begin) / h_z,
+ * the difference of G and psi_z does not: for each ForceJump, at t_e = (z_e - begin) / h_z,
  *
  *     g_e(r) h_z (max(t - t_e, 0) - (1 - t_e) t),   t = (z - begin) / h_z,
  *
