@@ -53,27 +53,34 @@ struct AngularShapes {
   }
 };
 
-/// The integrals over a line z = const of a cell, each over dr.
-struct LineIntegrals {
-  double bound_squared = 0; ///< of eta^2 without the road's term
-  double norm_squared = 0;  ///< of a(v, v)
-  double work_of_force = 0; ///< of (f_0, v) = int G v_r dr dz
-  double work_of_rest = 0;  ///< of (f_0, v - u_h)
+/// The integrals over a line z = const of a cell, each over dr, or sums of them: in a higher
+/// precision, lest those over very many cells be off by more than the bounds of J are apart.
+template <typename Number>
+struct Integrals {
+  Number bound_squared = 0; ///< of eta^2 without the road's term
+  Number norm_squared = 0;  ///< of a(v, v)
+  Number work_of_force = 0; ///< of (f_0, v) = int G v_r dr dz
+  Number work_of_rest = 0;  ///< of (f_0, v - u_h)
 
-  void add(const LineIntegrals& other, double weight) {
+  template <typename Other>
+  void add(const Integrals<Other>& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
     work_of_rest += weight * other.work_of_rest;
   }
-
-  /// The sums over all processes.
-  LineIntegrals over(MPI_Comm communicator) const {
-    std::vector<double> sums = {bound_squared, norm_squared, work_of_force, work_of_rest};
-    Utilities::MPI::sum(sums, communicator, sums);
-    return {sums[0], sums[1], sums[2], sums[3]};
-  }
 };
+
+using LineIntegrals = Integrals<double>;
+using Sums = Integrals<long double>;
+
+/// The sums over all processes.
+LineIntegrals sums_over(MPI_Comm communicator, const Sums& own) {
+  std::vector<long double> sums = {own.bound_squared, own.norm_squared, own.work_of_force,
+                                   own.work_of_rest};
+  Utilities::MPI::sum(sums, communicator, sums);
+  return {double(sums[0]), double(sums[1]), double(sums[2]), double(sums[3])};
+}
 
 class Integrator {
 public:
@@ -296,7 +303,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
   IntervalMap<std::vector<AngularShapes>> exact_shapes;
   std::vector<double> cell_bounds(triangulation.n_active_cells());
-  LineIntegrals total;
+  Sums total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
@@ -338,7 +345,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     total.add(sums, 1);
   }
   const auto [bound_squared, norm_squared, work_of_force, work_of_rest] =
-      total.over(space.communicator());
+      sums_over(space.communicator(), total);
 
   double work_of_projection = 0; // on the contact nodes
   if (system.load) {
@@ -356,8 +363,6 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   if (!system.is_kept)
     system.dual.reset();
   const double eta = of_flux + missed;
-  if (getenv("PJ"))
-    std::fprintf(stderr, "flux %g missed %g epsilon %g\n", of_flux, missed, epsilon);
   const double energy_norm = epsilon + eta;
   const double energy = norm_squared / 2 - work_of_force;
   const double round_off = 1e-15 * (norm_squared + std::abs(work_of_force));

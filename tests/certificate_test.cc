@@ -322,6 +322,24 @@ TEST(Certificate, SeesAStripOfAFewCells) {
   }
 }
 
+// -J = int pi f^2 (b^2 - r^2)^2 / (4 r) dr without contact, to the last digits: sums over many
+// cells that rounded as doubles do would be off by more than the bounds are apart.
+TEST(Certificate, EnclosesTheEnergyToRoundOff) {
+  const long double a = 0.9, f = 8;
+  const long double expected = -static_cast<long double>(PI) * f * f / 4 *
+                               (std::log(1 / a) - (1 - a * a) + (1 - a * a * a * a) / 4);
+  for (const int factor : {1, 2, 4, 8}) {
+    const Parameters parameters = parameters_of(
+        {"Cylinder/Inner radius=0.9", "Cylinder/Angular velocity=1", "Cylinder/Radial force=8",
+         "Road/Distance=1.3", "Mesh/Degree=3", "Mesh/Radial cells=" + std::to_string(5 * factor),
+         "Mesh/Angular cells=" + std::to_string(31 * factor)});
+    const CertifiedError certified = *simulate(make_scene(parameters), parameters).result.certified;
+    EXPECT_LE(certified.lower_bound, expected);
+    EXPECT_GE(certified.upper_bound, expected);
+    EXPECT_LT(certified.upper_bound - certified.lower_bound, 1e-11 * std::abs(expected));
+  }
+}
+
 // Where a vertical line touches a spot, G is singular on all of it below the spot, and the
 // equation's residual is not: a mesh that is refined for u only has bounds of the order N^(-1/2).
 TEST(Certificate, RefinesWhereGIsSingularBesideTheForce) {
