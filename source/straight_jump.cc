@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <vector>
 
 namespace rollwave {
 
@@ -60,32 +62,38 @@ std::optional<double> straight_jump(const Scene& scene, const Point<2>& low, con
   const auto place = [&](unsigned int part) {
     return point_within(low[direction], high[direction], 1. * part / n_parts);
   };
-  double begin = place(0), end = begin;
-  OnLines before = on_lines(begin), beyond = before, last = before;
-  Change change(before, beyond); // from begin to end
-  for (unsigned int part = 1; part <= n_parts; ++part) {
-    const OnLines values = on_lines(place(part));
-    if (const Change here(last, values); here.sum > change.sum) {
-      change = here;
-      before = last;
-      beyond = values;
-      begin = place(part - 1);
-      end = place(part);
-    }
-    last = values;
+  std::vector<OnLines> values;
+  std::vector<Change> changes;
+  for (unsigned int part = 0; part <= n_parts; ++part) {
+    values.push_back(on_lines(place(part)));
+    if (part > 0)
+      changes.emplace_back(values[part - 1], values[part]);
   }
+  // Of many alike the one nearest to the middle, lest panels be cut slice by slice.
+  unsigned int chosen =
+      std::max_element(changes.begin(), changes.end(),
+                       [](const Change& x, const Change& y) { return x.sum < y.sum; }) -
+      changes.begin();
+  const double great = 0.9 * changes[chosen].sum;
+  const auto from_middle = [](int part) { return std::abs(2 * part + 1 - int(n_parts)); };
+  for (unsigned int part = 0; part < n_parts; ++part)
+    if (changes[part].sum >= great && from_middle(part) < from_middle(chosen))
+      chosen = part;
+  double begin = place(chosen), end = place(chosen + 1);
+  OnLines before = values[chosen], beyond = values[chosen + 1];
+  Change change = changes[chosen]; // from begin to end
   // Of what is smooth a half changes half as much.
   const double whole = change.sum;
   while (change.sum > whole / 2 && change.n_lines > 1) {
     const double middle = (begin + end) / 2;
     if (middle <= begin || middle >= end)
       return end;
-    const OnLines values = on_lines(middle);
-    const Change below(before, values), above(values, beyond);
+    const OnLines between = on_lines(middle);
+    const Change below(before, between), above(between, beyond);
     const bool is_below = below.sum > above.sum;
     change = is_below ? below : above;
     (is_below ? end : begin) = middle;
-    (is_below ? beyond : before) = values;
+    (is_below ? beyond : before) = between;
   }
   return std::nullopt;
 }

@@ -37,7 +37,9 @@ TEST(StraightJump, IsFoundBetweenNeighbouringNumbers) {
   EXPECT_EQ(find_jump("if(z>=4.4,r,0)*if(r>0.65,1,0)", 1), 4.4);
   EXPECT_EQ(find_jump("r*cos(z)+if(z<5.1,0,3)", 1), 5.1);
   // The greater one of two
-  EXPECT_EQ(find_jump("if(z<2,0,1)+if(z<4,0,2)", 1), 4.);
+  EXPECT_EQ(find_jump("if(z<2,0,1)+if(z<5,0,2)", 1), 5.);
+  // The middle one of many
+  EXPECT_EQ(find_jump("floor(z)", 1), 3.);
 }
 
 TEST(StraightJump, IsNoneWhereAForceIsContinuousOrJumpsOnACurve) {
