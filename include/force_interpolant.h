@@ -42,7 +42,7 @@ public:
 
   /// The angles in [0, 2 pi) where f jumps on a line z = const, in order, as far as panels end
   /// there.
-  std::vector<double> jumps() const { return panels.jumps(); }
+  std::vector<double> jumps(const Scene& scene) const { return panels.jumps(scene); }
 
   /// A bound, for any of some radii, of the root mean square over z in [begin, end], by the finer
   /// rule, of G less the polynomial that equals it at the points of the rule: from the

@@ -37,7 +37,7 @@ public:
 
   /// The angles in [0, 2 pi) where f jumps on a line z = const, in order, as far as parts end
   /// there.
-  std::vector<double> jumps() const;
+  std::vector<double> jumps(const Scene& scene) const;
 
   /// C ||f||, a bound of (f, w) / |w|, if all parts are judged.
   double friedrichs_norm(const Scene& scene) const;
@@ -47,13 +47,11 @@ private:
     ForcePanel panel;
     unsigned int inner = 0;     ///< the number of the inner one, the outer follows; 0: none
     unsigned int direction = 0; ///< in which the panel was cut
-    bool jumps = false;         ///< f does where it was cut
   };
 
   void collect(unsigned int number, double z, double begin, std::vector<unsigned int>& line) const;
 
   std::vector<Node> nodes;
-  bool jumps_at_period; ///< whether f does from 2 pi to 0
 };
 
 } // namespace rollwave

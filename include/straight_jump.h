@@ -14,13 +14,13 @@ struct Scene;
 double point_within(double begin, double end, double share);
 
 /// Where f jumps along r (direction 0) or z (1) on a rectangle with these corners, at the same
-/// place on at least two of three lines in this direction: the first number beyond. Of jumps that
+/// place on at least two of five lines in this direction: the first number beyond. Of jumps that
 /// differ by no more than a tenth the one nearest to the middle; nullopt where f does not jump, nor
 /// by as much as it changes on a twelfth of the rectangle.
 std::optional<double> straight_jump(const Scene& scene, const dealii::Point<2>& low,
                                     const dealii::Point<2>& high, unsigned int direction);
 
-/// Whether f jumps like that from one place to another, which are as good as one.
+/// Whether f jumps on any of these lines from one place to another, which are as good as one.
 /// @param size that of f, of which a jump is more than a millionth
 bool jumps_between(const Scene& scene, const dealii::Point<2>& low, const dealii::Point<2>& high,
                    unsigned int direction, double before, double beyond, double size);

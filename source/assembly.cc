@@ -12,6 +12,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <cmath>
+#include <functional>
 
 namespace rollwave {
 
@@ -72,15 +73,17 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
 
 namespace {
 
+/// r f at a point of the ring.
+using Moment = std::function<double(const Point<2>&)>;
+
 /// Adds int r f phi_i dr dz over a rectangle of a cell.
-void add_load(const Scene& scene, const FiniteElement<2>& element, const QGauss<2>& gauss,
+void add_load(const Moment& moment, const FiniteElement<2>& element, const QGauss<2>& gauss,
               const BoundingBox<2>& cell, const BoundingBox<2>& part, Vector<double>& load) {
   for (unsigned int q = 0; q < gauss.size(); ++q) {
     const Point<2> point = part.unit_to_real(gauss.point(q));
-    const double moment = point[0] * scene.force(point[0], std::fmod(point[1], 2 * numbers::PI));
+    const double weight = gauss.weight(q) * part.volume() * moment(point);
     for (unsigned int i = 0; i < load.size(); ++i)
-      load(i) += gauss.weight(q) * part.volume() * moment *
-                 element.shape_value(i, cell.real_to_unit(point));
+      load(i) += weight * element.shape_value(i, cell.real_to_unit(point));
   }
 }
 
@@ -99,6 +102,12 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
         find_load_breaks(scene, space.dof_handler().get_triangulation().n_global_active_cells(),
                          space.communicator());
   std::string refusal;
+  const Moment moment = [&](const Point<2>& point) {
+    const double r = point[0], z = std::fmod(point[1], 2 * numbers::PI), f = scene.force(r, z);
+    if (!std::isfinite(f) && refusal.empty())
+      refusal = force_not_finite_at(scene, r, z);
+    return r * f;
+  };
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -106,19 +115,11 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
     values.reinit(cell);
     cell_vector = 0;
     for (const unsigned int q : values.quadrature_point_indices()) {
-      const Point<2> point = values.quadrature_point(q);
-      const double r = point[0];
-      const double z = std::fmod(point[1], 2 * numbers::PI);
-      const double f = scene.force(r, z);
-      if (!std::isfinite(f)) {
-        if (refusal.empty())
-          refusal = force_not_finite_at(scene, r, z);
-        continue;
-      }
+      const double moment_here = moment(values.quadrature_point(q));
       if (!scene.uniform_force)
-        load.moments.push_back(r * f);
+        load.moments.push_back(moment_here);
       for (const unsigned int i : values.dof_indices())
-        cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q);
+        cell_vector(i) += moment_here * values.shape_value(i, q) * values.JxW(q);
     }
     const BoundingBox<2> box = cell->bounding_box();
     const auto radii = load.breaks.radial_ends(box.lower_bound(0), box.upper_bound(0)),
@@ -127,7 +128,7 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
       cell_vector = 0;
       for (unsigned int i = 0; i + 1 < radii.size(); ++i)
         for (unsigned int j = 0; j + 1 < angles.size(); ++j)
-          add_load(scene, element, gauss, box,
+          add_load(moment, element, gauss, box,
                    {{{radii[i], angles[j]}, {radii[i + 1], angles[j + 1]}}}, cell_vector);
     }
     cell->get_dof_indices(dofs);

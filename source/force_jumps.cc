@@ -42,7 +42,7 @@ double share_of_kinks(const Scene& scene, const ForceJump& jump, const RadialExt
 
 ForceJumps::ForceJumps(const ForceInterpolant& force, const Scene& scene,
                        const RadialExtents& extents) {
-  for (const double z : force.jumps()) {
+  for (const double z : force.jumps(scene)) {
     jumps.push_back({z, force.column(std::nextafter(z > 0 ? z : period, 0)), force.column(z), 0});
     jumps.back().share = share_of_kinks(scene, jumps.back(), extents);
   }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <queue>
 #include <unordered_set>
 #include <utility>
@@ -55,7 +56,17 @@ private:
   /// Numbers of panels, the one with the largest error first.
   using Queue = std::priority_queue<std::pair<double, unsigned int>>;
 
-  /// Halves the panels that have more than their share of the cells.
+  std::optional<double> find_jump(unsigned int i, unsigned int direction) const {
+    return straight_jump(scene, panels[i].low, panels[i].high, direction);
+  }
+
+  /// Cuts a part at a straight jump, else in the middle, and @returns the number of the inner one.
+  unsigned int cut(unsigned int i, unsigned int direction) {
+    const auto jump = find_jump(i, direction);
+    return jump ? panels.cut(scene, i, direction, *jump) : panels.halve(scene, i, direction);
+  }
+
+  /// Cuts the panels that have more than their share of the cells.
   void halve_where_fine();
 
   /// @param most panels in the end
@@ -160,7 +171,10 @@ void Chooser::halve_where_fine() {
     const Tensor<1, 2> size = panels[i].high - panels[i].low, all = panels[0].high - panels[0].low;
     if (16 * size[direction] / all[direction] < size[1 - direction] / all[1 - direction])
       direction = 1 - direction; // does not reach single cells along a jump
-    const double middle = panels[panels.halve(scene, i, direction)].high[direction];
+    // f_0 may not see a jump, and each part would have to be cut there.
+    if (!find_jump(i, direction) && find_jump(i, 1 - direction))
+      direction = 1 - direction;
+    const double middle = panels[cut(i, direction)].high[direction];
     const auto outer = std::partition(whole.begin, whole.end, [&](const Point<2>& center) {
       return center[direction] < middle + slight * size[direction];
     });
@@ -186,11 +200,9 @@ void Chooser::halve_the_worst(unsigned int most) {
     const unsigned int direction = panels[i].rougher_direction();
     if (!is_divisible(panels[i], direction))
       continue; // a jump between neighbouring numbers
-    const auto jump = straight_jump(scene, panels[i].low, panels[i].high, direction);
-    const unsigned int first_half =
-        jump ? panels.cut(scene, i, direction, *jump) : panels.halve(scene, i, direction);
-    add(first_half);
-    add(first_half + 1);
+    const unsigned int inner = cut(i, direction);
+    add(inner);
+    add(inner + 1);
   }
 }
 

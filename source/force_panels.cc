@@ -16,10 +16,6 @@ using namespace dealii;
 ForcePanels::ForcePanels(const Scene& scene) {
   nodes.push_back({ForcePanel(scene, Point<2>(scene.inner_radius, 0),
                               Point<2>(scene.outer_radius, 2 * numbers::PI))});
-  const ForcePanel& all = nodes[0].panel;
-  jumps_at_period =
-      jumps_between(scene, all.low, all.high, 1, point_within(all.low[1], all.high[1], 1),
-                    point_within(all.low[1], all.high[1], 0), all.size_of_force());
 }
 
 unsigned int ForcePanels::cut(const Scene& scene, unsigned int number, unsigned int direction,
@@ -27,14 +23,10 @@ unsigned int ForcePanels::cut(const Scene& scene, unsigned int number, unsigned 
   const ForcePanel& whole = nodes[number].panel;
   Point<2> low = whole.low, high = whole.high;
   low[direction] = high[direction] = place;
-  const bool jumps = jumps_between(
-      scene, whole.low, whole.high, direction, point_within(whole.low[direction], place, 1),
-      point_within(place, whole.high[direction], 0), whole.size_of_force());
   ForcePanel inner(scene, whole.low, high), outer(scene, low, whole.high);
   const unsigned int number_of_inner = nodes.size();
   nodes[number].inner = number_of_inner;
   nodes[number].direction = direction;
-  nodes[number].jumps = jumps;
   nodes.push_back({std::move(inner)});
   nodes.push_back({std::move(outer)});
   return number_of_inner;
@@ -54,7 +46,7 @@ std::vector<unsigned int> ForcePanels::on(double z, double begin) const {
 
 void ForcePanels::collect(unsigned int number, double z, double begin,
                           std::vector<unsigned int>& line) const {
-  const auto& [panel, inner, direction, jumps] = nodes[number];
+  const auto& [panel, inner, direction] = nodes[number];
   if (panel.high[0] <= begin)
     return;
   if (inner == 0) {
@@ -119,13 +111,21 @@ std::vector<double> ForcePanels::ends(double begin, double end, double radius) c
   }
 }
 
-std::vector<double> ForcePanels::jumps() const {
+std::vector<double> ForcePanels::jumps(const Scene& scene) const {
+  double size = 0;
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (is_part(i))
+      size = std::max(size, nodes[i].panel.size_of_force());
   std::vector<double> angles;
-  if (jumps_at_period)
-    angles.push_back(0);
-  for (const auto& [panel, inner, direction, jumps] : nodes)
-    if (jumps && direction == 1)
-      angles.push_back(nodes[inner].panel.high[1]);
+  for (unsigned int i = 0; i < nodes.size(); ++i) {
+    const ForcePanel& panel = nodes[i].panel;
+    const double begin = panel.low[1], length = panel.high[1] - begin;
+    const double end_before = begin > 0 ? begin : nodes[0].panel.high[1];
+    if (is_part(i) && jumps_between(scene, panel.low, panel.high, 1,
+                                    point_within(end_before - length, end_before, 1),
+                                    point_within(begin, panel.high[1], 0), size))
+      angles.push_back(begin);
+  }
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   return angles;

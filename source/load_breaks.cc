@@ -6,6 +6,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +36,8 @@ void add_jumps(const Scene& scene, const Point<2>& low, const Point<2>& high,
     add_jumps(scene, outer, high, direction, least, places);
 }
 
-std::vector<double> ends_of_parts(double begin, double end, const std::vector<double>& places,
-                                  double period) {
+std::vector<double> cut_interval(double begin, double end, const std::vector<double>& places,
+                                 double period) {
   std::vector<double> ends = {begin};
   for (double turn = 0; turn < end; turn += period)
     for (auto place = std::upper_bound(places.begin(), places.end(), begin - turn);
@@ -59,39 +60,47 @@ std::vector<double> of_all(std::vector<double> places, MPI_Comm communicator) {
 } // namespace
 
 std::vector<double> LoadBreaks::radial_ends(double begin, double end) const {
-  return ends_of_parts(begin, end, radii, std::numeric_limits<double>::infinity());
+  return cut_interval(begin, end, radii, std::numeric_limits<double>::infinity());
 }
 
 std::vector<double> LoadBreaks::angular_ends(double begin, double end) const {
-  return ends_of_parts(begin, end, angles, period);
+  return cut_interval(begin, end, angles, period);
 }
 
 LoadBreaks find_load_breaks(const Scene& scene, unsigned int n_cells, MPI_Comm communicator) {
-  constexpr double cells_along = 12;
+  constexpr unsigned int cells_along = 12;
   const double height = scene.outer_radius - scene.inner_radius,
                circumference = period * scene.outer_radius;
   const double size = cells_along * std::sqrt(height * circumference / n_cells);
-  const unsigned int n_radial = std::ceil(height / size),
-                     n_angular = std::ceil(circumference / size);
-  const Point<2> step(height / n_radial, period / n_angular);
-  Scene periodic = scene;
-  periodic.force = [&scene](double r, double z) {
-    return scene.force(r, z < period ? z : z - period);
+  // Of a thin ring no more in a direction than there are cells.
+  const auto count = [&](double length) {
+    return std::ceil(std::min(length / size, 1. * n_cells / cells_along));
   };
+  const unsigned int n_radial = count(height), n_angular = count(circumference);
+  const Point<2> step(height / n_radial, period / n_angular);
+  const Tensor<1, 2> overlap = step / cells_along;
   LoadBreaks breaks;
   for (unsigned int i = process_number(communicator); i < n_radial * n_angular;
        i += count_processes(communicator)) {
-    const Point<2> begin(scene.inner_radius + i % n_radial * step[0], i / n_radial * step[1]);
-    for (const unsigned int direction : {0, 1}) {
-      // Overlapping, since jumps on an edge are seen on neither side of it.
-      Point<2> low = begin, high = begin + step;
-      const double overlap = step[direction] / cells_along;
-      low[direction] = std::max(low[direction] - overlap, direction == 0 ? scene.inner_radius : 0);
-      high[direction] += overlap;
-      if (direction == 0)
-        high[0] = std::min(high[0], scene.outer_radius);
-      add_jumps(periodic, low, high, direction, overlap,
-                direction == 0 ? breaks.radii : breaks.angles);
+    const Point<2> low(scene.inner_radius + i % n_radial * step[0], i / n_radial * step[1]);
+    const Point<2> high(std::min(low[0] + step[0], scene.outer_radius),
+                        std::min(low[1] + step[1], period));
+    // Overlapping, since jumps on an edge are seen on neither side of it.
+    const double inner = std::max(low[0] - overlap[0], scene.inner_radius),
+                 outer = std::min(high[0] + overlap[0], scene.outer_radius),
+                 begin = std::max(low[1] - overlap[1], 0.),
+                 end = std::min(high[1] + overlap[1], period);
+    add_jumps(scene, {inner, low[1]}, {outer, high[1]}, 0, overlap[0], breaks.radii);
+    add_jumps(scene, {low[0], begin}, {high[0], end}, 1, overlap[1], breaks.angles);
+    if (low[1] == 0) {
+      Scene periodic = scene;
+      periodic.force = [&scene](double r, double z) {
+        return scene.force(r, z < period ? z : z - period);
+      };
+      // So narrow that other jumps beside the period do not hide its own.
+      const double beside = overlap[1] / 1000;
+      add_jumps(periodic, {low[0], period - beside}, {high[0], period + beside}, 1, overlap[1],
+                breaks.angles);
     }
   }
   for (double& angle : breaks.angles)

@@ -302,6 +302,17 @@ TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
   }
 }
 
+// One panel shall be cut at the circle, not each of those into which it is halved: a mesh pays for
+// few.
+TEST(Certificate, SeesASkinThatIsThinnerThanCells) {
+  for (const std::string cells : {"119", "122", "200"}) {
+    const Parameters parameters = with(paper_scenes()[0].parameters(),
+                                       {"Cylinder/Radial force=if(r>0.999,20,0)", "Mesh/Degree=1",
+                                        "Mesh/Radial cells=8", "Mesh/Angular cells=" + cells});
+    EXPECT_LT(simulate(make_scene(parameters), parameters).result.certified->relative, 0.1);
+  }
+}
+
 // Three cells of the coarser mesh, where the points of a panel lie on either side.
 TEST(Certificate, SeesAStripOfAFewCells) {
   const double cell = 2 * PI / 480;

@@ -38,6 +38,9 @@ TEST(StraightJump, IsFoundBetweenNeighbouringNumbers) {
   EXPECT_EQ(find_jump("r*cos(z)+if(z<5.1,0,3)", 1), 5.1);
   // The greater one of two
   EXPECT_EQ(find_jump("if(z<2,0,1)+if(z<5,0,2)", 1), 5.);
+  // Where f is the mean of both sides at the place itself, and two between the same points
+  EXPECT_NEAR(find_jump("sign(2-z)", 1).value(), 2, 1e-15);
+  EXPECT_TRUE(find_jump("if(z<2,0,1)+if(z<2.01,0,1)", 1));
   // The middle one of many
   EXPECT_EQ(find_jump("floor(z)", 1), 3.);
 }
@@ -55,12 +58,16 @@ TEST(StraightJump, IsNoneWhereAForceIsContinuousOrJumpsOnACurve) {
 
 TEST(ForceJumps, AreWhereTheForceJumpsAlongZ) {
   const auto jumps_of = [](const std::string& force) {
-    return Force(force, 8, 96).interpolant.jumps();
+    const Force on_mesh(force, 8, 96);
+    return on_mesh.interpolant.jumps(on_mesh.scene);
   };
   EXPECT_EQ(jumps_of("if(z<2,1,-1)"), std::vector<double>({0, 2}));
   // Where panels end anyway
   EXPECT_EQ(jumps_of("if(abs(z-pi)<=1,if(z<pi,1,2),0)").size(), 3u);
   EXPECT_EQ(jumps_of("z"), std::vector<double>({0}));
+  // Near the surface only, where panels were halved
+  EXPECT_EQ(jumps_of("if(r>0.96,z,0)"), std::vector<double>({0}));
+  EXPECT_EQ(jumps_of("r^20*if(z<pi,1,-1)"), std::vector<double>({0, PI}));
   for (const std::string force : {"sin(3*z)*r", "if(r<0.7123,1,0)", "if(r<0.7+0.1*sin(3*z),1,0)"})
     EXPECT_TRUE(jumps_of(force).empty()) << force;
 }

@@ -1,5 +1,7 @@
 // The load of forces that jump on straight lines is exact, and what follows from that.
 #include "assembly.h"
+#include "errors.h"
+#include "floating_point.h"
 #include "load_breaks.h"
 #include "scene.h"
 #include "test_scenes.h"
@@ -44,6 +46,9 @@ TEST(LoadBreaks, AreWhereTheForceJumpsOnStraightLines) {
   const LoadBreaks sector = breaks_of("if(r<0.7,0,if(abs(z-3)<0.5,1,0))", 10000);
   EXPECT_EQ(sector.radii, Places({0.7}));
   EXPECT_EQ(sector.angles.size(), 2u);
+  // In a skin of two cells, and beside the period
+  EXPECT_EQ(breaks_of("if(r>0.9,z,0)", 1200).angles, Places({0}));
+  EXPECT_EQ(breaks_of("if(z<6.28,1,-5)", 1200).angles, Places({0, 6.28}));
 }
 
 TEST(LoadBreaks, AreNoneWhereNothingJumpsOrOnACurve) {
@@ -95,6 +100,15 @@ TEST(Load, IsExactWhereTheForceJumps) {
       const double expected = (2.3 - (2 * PI - 2.3)) * (moment(a, 0.7123) + 3 * moment(0.7123, b));
       EXPECT_NEAR(assemble_load(ring.space, scene).vector * w / expected, 1, 1e-13);
     }
+}
+
+TEST(Load, RefusesAForceThatIsNotFiniteOnAPartOfACell) {
+  const UntrappedFloatingPoint root_of_a_negative_number;
+  const Parameters parameters = under("if(z<2,1,-1)+if(abs(z-1.9948)<1e-4,sqrt(-1),0)",
+                                      {"Mesh/Radial cells=20", "Mesh/Angular cells=480"});
+  const Scene scene = make_scene(parameters);
+  const Discretisation ring(scene, parameters);
+  EXPECT_THROW(assemble_load(ring.space, scene), BadInput);
 }
 
 // The solution's second derivatives jump with the force: quadratic elements are of order 3/2 in the
