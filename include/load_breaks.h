@@ -13,6 +13,8 @@ struct Scene;
 struct LoadBreaks {
   std::vector<double> radii, angles; ///< the latter in [0, 2 pi)
 
+  bool empty() const { return radii.empty() && angles.empty(); }
+
   /// The ends of the parts into which they cut an interval.
   std::vector<double> radial_ends(double begin, double end) const;
   std::vector<double> angular_ends(double begin, double end) const;

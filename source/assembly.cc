@@ -109,6 +109,19 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
     return r * f;
   };
 
+  // The load of a cell that is cut: the rule on the whole does not know it.
+  const auto replace_where_cut = [&](const BoundingBox<2>& box, Vector<double>& cell_load) {
+    const auto radii = load.breaks.radial_ends(box.lower_bound(0), box.upper_bound(0)),
+               angles = load.breaks.angular_ends(box.lower_bound(1), box.upper_bound(1));
+    if (radii.size() == 2 && angles.size() == 2)
+      return;
+    cell_load = 0;
+    for (unsigned int i = 0; i + 1 < radii.size(); ++i)
+      for (unsigned int j = 0; j + 1 < angles.size(); ++j)
+        add_load(moment, element, gauss, box,
+                 {{{radii[i], angles[j]}, {radii[i + 1], angles[j + 1]}}}, cell_load);
+  };
+
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
@@ -121,16 +134,8 @@ Load assemble_load(const RingSpace& space, const Scene& scene) {
       for (const unsigned int i : values.dof_indices())
         cell_vector(i) += moment_here * values.shape_value(i, q) * values.JxW(q);
     }
-    const BoundingBox<2> box = cell->bounding_box();
-    const auto radii = load.breaks.radial_ends(box.lower_bound(0), box.upper_bound(0)),
-               angles = load.breaks.angular_ends(box.lower_bound(1), box.upper_bound(1));
-    if (radii.size() > 2 || angles.size() > 2) {
-      cell_vector = 0;
-      for (unsigned int i = 0; i + 1 < radii.size(); ++i)
-        for (unsigned int j = 0; j + 1 < angles.size(); ++j)
-          add_load(moment, element, gauss, box,
-                   {{{radii[i], angles[j]}, {radii[i + 1], angles[j + 1]}}}, cell_vector);
-    }
+    if (!load.breaks.empty())
+      replace_where_cut(cell->bounding_box(), cell_vector);
     cell->get_dof_indices(dofs);
     space.constraints().distribute_local_to_global(cell_vector, dofs, load.vector);
   }
