@@ -2,8 +2,10 @@
 #define ROLLWAVE_CERTIFICATE_H
 
 #include "feasible_trace.h"
+#include "parameters.h"
 #include "result.h"
 
+#include <future>
 #include <vector>
 
 namespace rollwave {
@@ -49,9 +51,19 @@ struct Certificate {
   double work_of_rest;             ///< (f_0, v - u_h), u_h the displacement certified
 };
 
+/// Makes the dual parts of @p system that the certificates of all solutions of a scene have in
+/// common, unless it has them: the matrix of the potential and what belongs to the force, of which
+/// neither knows the other. Of the parts that are there already it looks at the load only, so that
+/// it may run while the scene is solved.
+/// @param kind that of the potential's solver
+/// @param beside how the matrix is made while the force is looked at
+/// @throws BadInput where the force is not finite, NotSolved when memory is short
+void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
+                         std::launch beside, MeshSystem& system, Work& work);
+
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
-/// space, with the load of the scene. Its dual parts are made here when it lacks them, and dropped
-/// unless the system is kept.
+/// space, with the load of the scene. Its dual parts are prepared here when it lacks them, and
+/// dropped unless the system is kept.
 /// @throws NotSolved when memory is short.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,

@@ -36,19 +36,26 @@ public:
   /// @p kind is that of make_symmetric_solver().
   DualPotential(const RingSpace& space, SolverKind kind);
 
-  /// The nodal values of psi, both sides of the seam having their own.
-  /// @param constraints those of potential_constraints() for this scene
+  /// Whether the matrix is that of the scene's speed.
+  bool belongs_to(const Scene& scene) const;
+
+  /// Makes it so.
+  /// @param shapes those of the mesh and the scene
+  /// @param constraints those of solve(), but for inhomogeneities
+  /// @throws NotSolved when memory is short
+  void turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
+               const dealii::AffineConstraints<double>& constraints, Work& work);
+
+  /// The nodal values of psi, both sides of the seam having their own, for the matrix' speed.
+  /// @param constraints those of potential_constraints() for the scene
   /// @param force_load int G psi_z / r dr dz, nullptr when G is a function of r, which does no
   /// work: int psi_z dz = 0 for every periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
-  FieldVector solve(const Scene& scene, RadialShapesOfMesh& shapes,
+  FieldVector solve(RadialShapesOfMesh& shapes,
                     const dealii::AffineConstraints<double>& constraints,
                     const FieldVector* force_load, Work& work);
 
 private:
-  void assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
-                       const dealii::AffineConstraints<double>& constraints, Work& work);
-
   /// What the values prescribed in @p lift contribute to the right-hand side.
   FieldVector load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
                       const dealii::AffineConstraints<double>& constraints) const;

@@ -2,8 +2,11 @@
 #define ROLLWAVE_LOAD_POINTS_H
 
 #include "force_panels.h"
+#include "interval_map.h"
 #include "radial_extents.h"
 #include "ring_space.h"
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <vector>
 
@@ -16,13 +19,48 @@ struct MissedAtLoadPoints {
   double mean = 0, mean_square = 0;
 };
 
-/// For each panel from number @p first on, none where it is not a part. The same on all processes.
-/// @param moments r f at the points of the load (Load)
-/// @param extents those of the space
-std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
-                                                      const ForcePanels& panels, unsigned int first,
-                                                      const std::vector<double>& moments,
-                                                      const RadialExtents& extents);
+/// r f at the points at which the load takes it, by columns of cells.
+class LoadPoints {
+public:
+  /// @param moments r f, cell by cell (Load); stays where it is
+  /// @param extents those of the space
+  LoadPoints(const RingSpace& space, const std::vector<double>& moments,
+             const RadialExtents& extents);
+
+  /// For each panel from number @p first on, none where it is not a part. The same on all
+  /// processes.
+  std::vector<MissedAtLoadPoints> missed(const ForcePanels& panels, unsigned int first);
+
+private:
+  /// Legendre polynomials at a radius, on the panel met last.
+  struct Legendre {
+    double r;
+    double begin = 0, end = 0; ///< of the panel; 0 before the first
+    ForcePiece::Coefficients values = {};
+
+    void turn_to(const ForcePiece& piece);
+  };
+
+  struct RadialInterval {
+    double begin, length;
+    std::vector<Legendre> points;
+  };
+
+  struct Cell {
+    RadialInterval* radial;
+    const double* moments;
+  };
+
+  struct Column {
+    RadialExtent extent;
+    std::vector<Cell> cells;
+  };
+
+  const MPI_Comm communicator;
+  const dealii::QGauss<1> gauss;
+  IntervalMap<RadialInterval> radial_intervals;
+  IntervalMap<Column> columns;
+};
 
 } // namespace rollwave
 

@@ -8,12 +8,19 @@
 
 namespace rollwave {
 
+/// From how many unknowns on memory counts more than time: with fewer a factor and all else stay
+/// below half a GiB.
+constexpr unsigned int many_unknowns = 400000;
+
 /// What OpenBLAS takes for each of its threads, in one piece.
 constexpr double blas_buffer_bytes = 128. * 1024 * 1024;
 
 /// The bytes that this process may still take before it meets a limit (`ulimit -v` or `-d`);
 /// nullopt without a limit, or where that is not known.
 std::optional<double> memory_below_limit();
+
+/// Whether this process has a limit of memory, or less than 2 GiB are available.
+bool is_memory_scarce();
 
 /// Where memory is limited, takes what BLAS needs before anything else does: it would wait for ever
 /// for memory that it does not get. @throws NotSolved when there is too little.

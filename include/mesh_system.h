@@ -20,8 +20,11 @@ struct DualParts {
   /// @param force the text of the scene's force, empty without force
   /// @param moments those of its Load
   /// @param breaks likewise
+  /// @param constraints those of the DualPotential, but for inhomogeneities
+  /// @throws BadInput where the force is not finite
   DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-            const std::vector<double>& moments, const LoadBreaks& breaks);
+            const std::vector<double>& moments, const LoadBreaks& breaks,
+            const dealii::AffineConstraints<double>& constraints);
 
   /// Whether they are those of a scene with this force.
   bool belong_to(const Scene& scene, const std::string& force) const;
@@ -37,10 +40,7 @@ struct DualParts {
   ForceJumps jumps;                            ///< none without an uneven force
   const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
   std::optional<ForceColumns> columns;         ///< with lines at its points
-
-  // Made by the first certificate.
-  std::optional<BubbleColumns> bubbles;
-  std::optional<ForceContribution> of_force; ///< of an uneven one
+  std::optional<ForceContribution> of_force;   ///< of an uneven one
 };
 
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another
@@ -48,6 +48,7 @@ struct DualParts {
 struct MeshSystem {
   SolverChoice stiffness; ///< its kind, which outlives the solver, is also the potential's
   std::unique_ptr<DualPotential> potential;
+  std::optional<BubbleColumns> bubbles; ///< of the same speed
   std::unique_ptr<DualParts> dual;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
   std::vector<double> moments;     ///< of the same Load

@@ -10,6 +10,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -97,7 +98,8 @@ public:
   dealii::Vector<double> contact_values(const FieldVector& field) const;
 
   /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
-  /// space sparse, whatever their constraints: dissect(), when first asked for. For one process.
+  /// space sparse, whatever their constraints: dissect(), when first asked for, by any thread. For
+  /// one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
@@ -128,6 +130,7 @@ private:
   unsigned int first_contact = 0; ///< number of its first node in surface
   std::vector<SurfaceFace> faces;
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
+  mutable std::once_flag is_ordered;
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
 };
 

@@ -9,6 +9,7 @@
 #include "parameters.h"
 #include "potential_kinks.h"
 #include "scene.h"
+#include "threads.h"
 #include "work.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -263,16 +264,62 @@ std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const Force
   return ends;
 }
 
+/// The name of the scene's force among those of a system.
+std::string force_of(const Scene& scene, const MeshSystem& system) {
+  return scene.force ? system.force : "";
+}
+
+bool has_potential(const MeshSystem& system, const Scene& scene) {
+  return system.potential && system.potential->belongs_to(scene);
+}
+
+void make_potential(const RingSpace& space, const Scene& scene, SolverKind kind,
+                    const AffineConstraints<double>& constraints, MeshSystem& system, Work& work) {
+  if (!system.potential)
+    system.potential = std::make_unique<DualPotential>(space, kind);
+  RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree, system.breaks);
+  system.potential->turn_to(scene, shapes, constraints, work);
+  system.bubbles.emplace(space, shapes);
+}
+
+bool has_force(const MeshSystem& system, const Scene& scene) {
+  return system.dual && system.dual->belong_to(scene, force_of(scene, system));
+}
+
+void make_force(const RingSpace& space, const Scene& scene,
+                const AffineConstraints<double>& constraints, MeshSystem& system) {
+  system.dual = std::make_unique<DualParts>(space, scene, force_of(scene, system), system.moments,
+                                            system.breaks, constraints);
+}
+
 } // namespace
+
+void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
+                         std::launch beside, MeshSystem& system, Work& work) {
+  if (has_potential(system, scene) && has_force(system, scene))
+    return;
+  const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
+  const AffineConstraints<double> constraints =
+      potential_constraints(space, scene, no_pressures, ForceJumps());
+  std::future<void> potential;
+  if (!has_potential(system, scene))
+    potential =
+        std::async(beside, [&] { make_potential(space, scene, kind, constraints, system, work); });
+  if (!has_force(system, scene))
+    make_force(space, scene, constraints, system);
+  if (potential.valid())
+    potential.get();
+}
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,
                     Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
-  const std::string force = scene.force ? system.force : "";
-  if (!system.dual || !system.dual->belong_to(scene, force))
-    system.dual = std::make_unique<DualParts>(space, scene, force, system.moments, system.breaks);
+  const SolverKind kind = system.stiffness.kind;
+  const bool has_two_parts = scene.has_uneven_force() && kind != SolverKind::iterative;
+  prepare_certificate(space, scene, kind, has_two_parts ? launch_beside() : std::launch::deferred,
+                      system, work);
   DualParts& dual = *system.dual;
   const QGauss<1>& gauss = dual.gauss;
   const QGauss<1> along_road(degree + 6);
@@ -282,22 +329,18 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const FeasibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = edge_pressures(space, scene, contact);
-  if (!system.potential)
-    system.potential = std::make_unique<DualPotential>(space, system.stiffness.kind);
   const AffineConstraints<double> constraints =
       potential_constraints(space, scene, pressures, dual.jumps);
-  if (is_uneven && !dual.of_force)
-    dual.of_force.emplace(space, constraints, dual.shapes, *columns, dual.jumps);
   const FieldVector potential = system.potential->solve(
-      scene, dual.shapes, constraints, is_uneven ? &dual.of_force->to_potential : nullptr, work);
+      dual.shapes, constraints, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
     system.potential.reset();
-  if (!dual.bubbles)
-    dual.bubbles.emplace(space, dual.shapes);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
   const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,
-                               is_uneven ? &dual.of_force->to_bubbles : nullptr, *dual.bubbles);
+                               is_uneven ? &dual.of_force->to_bubbles : nullptr, *system.bubbles);
+  if (!system.is_kept)
+    system.bubbles.reset();
   Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns, dual.jumps);
   const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
   IntervalMap<std::vector<AngularShapes>> exact_shapes;

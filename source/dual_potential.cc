@@ -85,11 +85,9 @@ DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
       numbering(element.get_poly_space_numbering_inverse()),
       reference(reference_products(element.degree)), solver(make_symmetric_solver(kind, space)) {}
 
-FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
+FieldVector DualPotential::solve(RadialShapesOfMesh& shapes,
                                  const AffineConstraints<double>& constraints,
                                  const FieldVector* force_load, Work& work) {
-  if (angular_velocity != scene.angular_velocity)
-    assemble_matrix(scene, shapes, constraints, work);
   FieldVector lift = space.make_field();
   constraints.distribute(lift);
   lift.update_ghost_values();
@@ -99,8 +97,12 @@ FieldVector DualPotential::solve(const Scene& scene, RadialShapesOfMesh& shapes,
   return potential;
 }
 
-void DualPotential::assemble_matrix(const Scene& scene, RadialShapesOfMesh& shapes,
-                                    const AffineConstraints<double>& constraints, Work& work) {
+bool DualPotential::belongs_to(const Scene& scene) const {
+  return angular_velocity == scene.angular_velocity;
+}
+
+void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
+                            const AffineConstraints<double>& constraints, Work& work) {
   angular_velocity.reset(); // until the solver is ready
   solver->set_matrix(
       scene, constraints,

@@ -30,7 +30,7 @@ class Chooser {
 public:
   Chooser(const RingSpace& space, const Scene& scene, const std::vector<double>& moments,
           const RadialExtents& extents)
-      : panels(scene), space(space), scene(scene), moments(moments), extents(extents) {
+      : panels(scene), space(space), scene(scene), load_points(space, moments, extents) {
     find_cells();
     halve_where_fine();
     for (unsigned int i = 0; i < panels.size(); ++i)
@@ -93,8 +93,7 @@ private:
 
   const RingSpace& space;
   const Scene& scene;
-  const std::vector<double>& moments;
-  const RadialExtents& extents;
+  LoadPoints load_points;
   Queue worst;
   unsigned int most_panels = 0, n_looked_at = 0;
   double negligible_squared = 0, allowed_squared = 0;
@@ -208,7 +207,7 @@ void Chooser::halve_the_worst(unsigned int most) {
 
 Chooser::Queue Chooser::look_at_load_points() {
   const unsigned int first = std::exchange(n_looked_at, panels.size());
-  const auto at_load_points = missed_at_load_points(space, panels, first, moments, extents);
+  const auto at_load_points = load_points.missed(panels, first);
   Queue seen_badly;
   for (unsigned int i = first; i < panels.size(); ++i) {
     const auto& [n_points, mean, mean_square] = at_load_points[i - first];

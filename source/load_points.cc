@@ -1,9 +1,6 @@
 #include "load_points.h"
 
-#include "interval_map.h"
-
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,80 +43,80 @@ struct Line {
   std::vector<Crossed> crossed;
 };
 
-/// Legendre polynomials at a radius, for the panel met last.
-struct Legendre {
-  double begin = 0, end = 0; ///< of the panel; 0 before the first
-  ForcePiece::Coefficients values;
-
-  const ForcePiece::Coefficients& at(double r, const ForcePiece& piece) {
-    if (begin != piece.begin || end != piece.end) {
-      begin = piece.begin;
-      end = piece.end;
-      values = legendre_values((r - begin) / (end - begin));
-    }
-    return values;
-  }
-};
-
 } // namespace
 
-std::vector<MissedAtLoadPoints> missed_at_load_points(const RingSpace& space,
-                                                      const ForcePanels& panels, unsigned int first,
-                                                      const std::vector<double>& moments,
-                                                      const RadialExtents& extents) {
-  const QGauss<1> gauss(space.dof_handler().get_fe().degree + 1);
-  IntervalMap<std::vector<Line>> known_lines;
-  IntervalMap<std::vector<Legendre>> known_legendre;     // at the radii of a radial interval
-  std::vector<double> sums(4 * (panels.size() - first)); // of one, the area, m and m^2
-  auto moment = moments.begin();
+void LoadPoints::Legendre::turn_to(const ForcePiece& piece) {
+  if (begin == piece.begin && end == piece.end)
+    return;
+  begin = piece.begin;
+  end = piece.end;
+  values = legendre_values((r - begin) / (end - begin));
+}
+
+LoadPoints::LoadPoints(const RingSpace& space, const std::vector<double>& moments,
+                       const RadialExtents& extents)
+    : communicator(space.communicator()), gauss(space.dof_handler().get_fe().degree + 1) {
+  const double* of_cell = moments.data();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
-    const Point<2> low = cell->vertex(0);
-    const Tensor<1, 2> size = cell->vertex(3) - low;
-    // Panels of just this size are common, and round-off shall not decide.
-    const Tensor<1, 2> covered = (1 + 1e-9) * ForcePanel::n_points / gauss.size() * size;
-    const auto& lines = known_lines.at(low[1], cell->vertex(3)[1], [&] {
-      const RadialExtent extent = extents.of(low[1], cell->vertex(3)[1]);
-      std::vector<Line> made;
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    RadialInterval& radial = radial_intervals.at(low[0], high[0], [&] {
+      RadialInterval made = {low[0], high[0] - low[0], {}};
       for (const auto& point : gauss.get_points())
-        made.emplace_back(panels, first, std::fmod(low[1] + size[1] * point[0], 2 * numbers::PI),
-                          extent);
+        made.points.push_back({made.begin + made.length * point[0]});
       return made;
     });
-    auto& legendre = known_legendre.at(low[0], cell->vertex(3)[0],
-                                       [&] { return std::vector<Legendre>(gauss.size()); });
+    Column& column = columns.at(low[1], high[1], [&] {
+      return Column{extents.of(low[1], high[1]), {}};
+    });
+    column.cells.push_back({&radial, of_cell});
+    of_cell += gauss.size() * gauss.size();
+  }
+}
+
+std::vector<MissedAtLoadPoints> LoadPoints::missed(const ForcePanels& panels, unsigned int first) {
+  std::vector<double> sums(4 * (panels.size() - first)); // of one, the area, m and m^2
+  // Panels of just the size of cells are common, and round-off shall not decide.
+  const double points_covered = (1 + 1e-9) * ForcePanel::n_points / gauss.size();
+  for (const auto& [interval, column] : columns.entries()) {
+    const double angular_length = interval.second - interval.first;
     for (unsigned int p = 0; p < gauss.size(); ++p) {
-      const auto& [column, crossed] = lines[p];
-      if (column.empty()) {
-        moment += gauss.size();
+      const Line line(
+          panels, first,
+          std::fmod(interval.first + angular_length * gauss.point(p)[0], 2 * numbers::PI),
+          column.extent);
+      if (line.column.empty())
         continue;
-      }
-      unsigned int piece = piece_at(column, low[0], 0);
-      for (unsigned int q = 0; q < gauss.size(); ++q) {
-        const double at_point = *moment++;
-        const double r = low[0] + size[0] * gauss.point(q)[0];
-        while (r > column[piece].end)
-          ++piece;
-        const auto& [begin, end, coefficients, outside] = column[piece];
-        const auto& [number, length, z_is_within] = crossed[piece];
-        const bool is_closer = covered[0] < end - begin || covered[1] < length;
-        if (number < first || !is_closer || !z_is_within || !is_within(begin, r, end))
-          continue;
-        const auto& values = legendre[q].at(r, column[piece]);
-        double missed = at_point;
-        for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k)
-          missed -= coefficients[k] * values[k];
-        const double area = size[0] * size[1] * gauss.weight(p) * gauss.weight(q);
-        double* const sum = &sums[4 * (number - first)];
-        sum[0] += 1;
-        sum[1] += area;
-        sum[2] += area * missed;
-        sum[3] += area * missed * missed;
+      for (const Cell& cell : column.cells) {
+        const double* moment = cell.moments + p * gauss.size();
+        unsigned int piece = piece_at(line.column, cell.radial->begin, 0);
+        for (unsigned int q = 0; q < gauss.size(); ++q) {
+          Legendre& legendre = cell.radial->points[q];
+          while (legendre.r > line.column[piece].end)
+            ++piece;
+          const auto& [begin, end, coefficients, outside] = line.column[piece];
+          const auto& [number, length, z_is_within] = line.crossed[piece];
+          const bool is_closer = points_covered * cell.radial->length < end - begin ||
+                                 points_covered * angular_length < length;
+          if (number < first || !is_closer || !z_is_within || !is_within(begin, legendre.r, end))
+            continue;
+          legendre.turn_to(line.column[piece]);
+          double missed = moment[q];
+          for (unsigned int k = 0; k < ForcePiece::n_coefficients; ++k)
+            missed -= coefficients[k] * legendre.values[k];
+          const double area =
+              cell.radial->length * angular_length * gauss.weight(p) * gauss.weight(q);
+          double* const sum = &sums[4 * (number - first)];
+          sum[0] += 1;
+          sum[1] += area;
+          sum[2] += area * missed;
+          sum[3] += area * missed * missed;
+        }
       }
     }
   }
-  Utilities::MPI::sum(sums, space.communicator(), sums);
+  Utilities::MPI::sum(sums, communicator, sums);
   std::vector<MissedAtLoadPoints> missed(panels.size() - first);
   for (unsigned int i = 0; i < missed.size(); ++i)
     if (const double* const sum = &sums[4 * i]; sum[0] > 0)

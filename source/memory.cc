@@ -59,6 +59,10 @@ std::optional<double> memory_below_limit() {
   return room;
 }
 
+bool is_memory_scarce() {
+  return memory_below_limit() || available_memory() < 2048 * mebibyte;
+}
+
 void reserve_blas_memory() {
   const auto room = memory_below_limit();
   if (!room)

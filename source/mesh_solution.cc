@@ -96,9 +96,8 @@ void require_finite(double squared, const std::string& what) {
 
 } // namespace
 
-MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-                           const Vector<double>& start, MeshSystem& system, Work& work) {
-  MeshSolution solution;
+void make_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+               MeshSystem& system, Work& work) {
   const std::string& force = parameters.cylinder.radial_force;
   if (!scene.force)
     system.load.reset();
@@ -113,6 +112,12 @@ MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, con
   }
   if (system.load)
     require_finite(system.load->norm_sqr(), "the load");
+}
+
+MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+                           const Vector<double>& start, MeshSystem& system, Work& work) {
+  MeshSolution solution;
+  make_load(scene, parameters, space, system, work);
   auto& solver = system.stiffness.solver;
   const std::string& remark = system.stiffness.remark;
   if (solver)

@@ -3,7 +3,8 @@
 namespace rollwave {
 
 DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-                     const std::vector<double>& moments, const LoadBreaks& breaks)
+                     const std::vector<double>& moments, const LoadBreaks& breaks,
+                     const dealii::AffineConstraints<double>& constraints)
     : angular_velocity(scene.angular_velocity), force(force),
       shapes(scene, space.dof_handler().get_fe().degree, breaks),
       extents(scene.has_uneven_force() ? RadialExtents(space) : RadialExtents()),
@@ -15,6 +16,8 @@ DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::stri
     jumps = ForceJumps(*interpolant, scene, extents);
   if (interpolant)
     columns.emplace(scene, *interpolant, gauss, extents, jumps);
+  if (has_uneven_force())
+    of_force.emplace(space, constraints, shapes, *columns, jumps);
 }
 
 bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {

@@ -166,8 +166,7 @@ RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) cons
 }
 
 const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
-  if (order.empty())
-    order = dissect(handler);
+  std::call_once(is_ordered, [this] { order = dissect(handler); });
   return order;
 }
 

@@ -9,11 +9,13 @@
 #include "refinement.h"
 #include "residual_indicator.h"
 #include "ring_mesh.h"
+#include "threads.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -61,14 +63,34 @@ std::string left_out_text(const std::string& what, const NotSolved& failure,
   return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
 }
 
+/// Prepares the certificate while the scene is solved, where it takes no time then. Both need
+/// memory at once.
+std::future<Work> prepare_beside(const Scene& scene, const Parameters& parameters,
+                                 Solution& solution) {
+  const std::launch beside = launch_beside();
+  if (beside == std::launch::deferred || solution.space->n_unknowns() >= many_unknowns ||
+      parameters.solver.kind == SolverKind::iterative)
+    return {};
+  make_load(scene, parameters, *solution.space, solution.system, solution.result.work);
+  return std::async(beside, [&scene, &space = *solution.space, &system = solution.system] {
+    Work work;
+    prepare_certificate(space, scene, SolverKind::direct, std::launch::deferred, system, work);
+    return work;
+  });
+}
+
 /// A certificate that fails, such as for want of memory, leaves the solution as it is, with a
 /// shortfall. Where an error is wanted and the mesh before was certified, this one counts as not
 /// solved.
 /// @throws NotSolved then.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
-                      Solution& solution) {
+                      std::future<Work>& preparation, Solution& solution) {
   Result& result = solution.result;
   try {
+    if (preparation.valid()) {
+      const Work::Phase phase(result.work, "certificate");
+      result.work.add_counts(preparation.get());
+    }
     solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
                                    on_mesh.displacement, solution.system, result.work);
   } catch (const NotSolved& failure) {
@@ -211,6 +233,9 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     const bool is_last = cycle == most_cycles(parameters);
     const bool is_used_again = keep == Keep::everything ||
                                (parameters.certificate.load_bounds && most_cycles(parameters) == 0);
+    std::future<Work> preparation;
+    if (certifies && (is_last || wants_error))
+      preparation = prepare_beside(scene, parameters, solution);
     MeshSolution on_mesh =
         solve_on_mesh(scene, parameters, *solution.space,
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
@@ -221,7 +246,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     if (!is_used_again)
       solution.system.stiffness.solver.reset();
     if (certifies && (is_last || wants_error))
-      certify_solution(scene, on_mesh, wants_error, solution);
+      certify_solution(scene, on_mesh, wants_error, preparation, solution);
     const bool is_reached =
         wants_error && result.certified && result.certified->relative <= mesh.wanted_relative_error;
     const bool is_finished = is_reached || is_last || !result.shortfall.empty();
@@ -242,7 +267,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
       }
     }
     if (certifies && !is_last && !wants_error)
-      certify_solution(scene, on_mesh, wants_error, solution);
+      certify_solution(scene, on_mesh, wants_error, preparation, solution);
     if (result.is_interrupted || (wants_error && !is_reached))
       result.shortfall = shortfall_text(parameters, solution);
     else if (result.shortfall.empty() && result.residuals.largest() > wanted_residual &&

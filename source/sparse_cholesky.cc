@@ -12,14 +12,6 @@
 
 namespace rollwave {
 
-namespace {
-
-/// From how many unknowns on memory counts more than time: with fewer the factor and all else
-/// stay below half a GiB.
-constexpr int many_unknowns = 400000;
-
-} // namespace
-
 /// CHOLMOD's objects, released together.
 struct SparseCholesky::Cholmod {
   const bool saves_memory;
@@ -27,7 +19,7 @@ struct SparseCholesky::Cholmod {
   cholmod_sparse* matrix = nullptr;
   cholmod_factor* factor = nullptr;
 
-  explicit Cholmod(int n) : saves_memory(n >= many_unknowns) {
+  explicit Cholmod(unsigned int n) : saves_memory(n >= many_unknowns) {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;

@@ -15,6 +15,7 @@
 #include "work.h"
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -91,6 +92,41 @@ TEST(Certificate, HoldsForRandomScenes) {
   std::cout << n_checked << " scenes, largest effectivity " << worst
             << ", on adaptive meshes with more than "
             << "1000 unknowns " << worst_on_fine_adaptive << std::endl;
+}
+
+// What is prepared in a thread beside the solution, or beside the force, is what is prepared after.
+TEST(Certificate, DoesNotDependOnThreads) {
+  const auto solve = [](const std::vector<std::string>& settings, unsigned int n_threads) {
+    dealii::MultithreadInfo::set_thread_limit(n_threads);
+    const Parameters parameters = parameters_of(settings);
+    Solution solution = simulate(make_scene(parameters), parameters);
+    dealii::MultithreadInfo::set_thread_limit();
+    return solution;
+  };
+  for (const char* force :
+       {"0", "0.3", "1+0.5*r*cos(z)", "if(z<2,1,-1)", "if(r<0.7+0.1*sin(3*z),1,0)"})
+    // certified after each mesh, after one of which it is known that it is the last, after any
+    for (const char* goal : {"Mesh/Wanted relative error=0.03", "Mesh/Adaptive cycles=2",
+                             "Mesh/Adaptive cycles=100"}) {
+      const std::vector<std::string> settings = {std::string("Cylinder/Radial force=") + force,
+                                                 "Cylinder/Angular velocity=0.9",
+                                                 goal,
+                                                 "Mesh/Degree=2",
+                                                 "Mesh/Radial cells=4",
+                                                 "Mesh/Angular cells=48",
+                                                 "Mesh/Most unknowns=4000"};
+      SCOPED_TRACE(testing::PrintToString(settings));
+      const Solution with_one = solve(settings, 1), with_two = solve(settings, 2);
+      const CertifiedError& one = *with_one.result.certified;
+      const CertifiedError& two = *with_two.result.certified;
+      EXPECT_EQ(one.energy_norm, two.energy_norm);
+      EXPECT_EQ(one.lower_bound, two.lower_bound);
+      EXPECT_EQ(one.upper_bound, two.upper_bound);
+      EXPECT_EQ(with_one.certificate->cell_bounds, with_two.certificate->cell_bounds);
+      EXPECT_EQ(with_one.result.work.factorisations, with_two.result.work.factorisations);
+      EXPECT_EQ(with_one.result.work.orderings, with_two.result.work.orderings);
+      EXPECT_EQ(with_one.result.work.load_assemblies, with_two.result.work.load_assemblies);
+    }
 }
 
 TEST(Certificate, HoldsForHigherDegrees) {
