@@ -5,7 +5,6 @@
 #include "parameters.h"
 #include "result.h"
 
-#include <future>
 #include <vector>
 
 namespace rollwave {
@@ -56,15 +55,18 @@ struct Certificate {
 /// neither knows the other. Of the parts that are there already it looks at the load only, so that
 /// it may run while the scene is solved.
 /// @param kind that of the potential's solver
-/// @param beside how the matrix is made while the force is looked at
+/// @param in_threads whether the one is made while the other is looked at
 /// @throws BadInput where the force is not finite, NotSolved when memory is short
 void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         std::launch beside, MeshSystem& system, Work& work);
+                         bool in_threads, MeshSystem& system, Work& work);
+
+/// Whether it has nothing to do.
+bool is_certificate_prepared(const Scene& scene, const MeshSystem& system);
 
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
 /// space, with the load of the scene. Its dual parts are prepared here when it lacks them, and
 /// dropped unless the system is kept.
-/// @throws NotSolved when memory is short.
+/// @throws as prepare_certificate(), NotSolved when an iteration fails.
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,
                     Work& work);

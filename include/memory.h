@@ -8,8 +8,8 @@
 
 namespace rollwave {
 
-/// From how many unknowns on memory counts more than time: with fewer a factor and all else stay
-/// below half a GiB.
+/// From how many unknowns on memory counts more than time, and threads of BLAS gain any: with fewer
+/// a factor and all else stay below half a GiB.
 constexpr unsigned int many_unknowns = 400000;
 
 /// What OpenBLAS takes for each of its threads, in one piece.
@@ -19,8 +19,9 @@ constexpr double blas_buffer_bytes = 128. * 1024 * 1024;
 /// nullopt without a limit, or where that is not known.
 std::optional<double> memory_below_limit();
 
-/// Whether this process has a limit of memory, or less than 2 GiB are available.
-bool is_memory_scarce();
+/// The bytes that the machine, or what a batch system gives of it, has left without taking them
+/// from others; infinity where that is not known.
+double available_memory();
 
 /// Where memory is limited, takes what BLAS needs before anything else does: it would wait for ever
 /// for memory that it does not get. @throws NotSolved when there is too little.

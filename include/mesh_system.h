@@ -46,7 +46,7 @@ struct DualParts {
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another
 /// scene at the cost of what differs; a part that is dropped is made again.
 struct MeshSystem {
-  SolverChoice stiffness; ///< its kind, which outlives the solver, is also the potential's
+  SolverChoice stiffness; ///< its kind outlives the solver
   std::unique_ptr<DualPotential> potential;
   std::optional<BubbleColumns> bubbles; ///< of the same speed
   std::unique_ptr<DualParts> dual;

@@ -31,7 +31,7 @@ public:
   /// Of the cells with the angular interval [begin, end]; all radii where there are none.
   RadialExtent of(double begin, double end) const;
 
-  /// Those that have the angle z within, whichever turn they belong to.
+  /// Those that have the angle z within, whichever turn they belong to, in order.
   std::vector<CellColumn> around(double z) const;
 
 private:

@@ -5,11 +5,12 @@
 #include "edge_pressure.h"
 #include "force_columns.h"
 #include "interval_map.h"
+#include "memory.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "potential_kinks.h"
 #include "scene.h"
-#include "threads.h"
+#include "task_beside.h"
 #include "work.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -278,8 +279,10 @@ void make_potential(const RingSpace& space, const Scene& scene, SolverKind kind,
   if (!system.potential)
     system.potential = std::make_unique<DualPotential>(space, kind);
   RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree, system.breaks);
+  system.bubbles.reset();
   system.potential->turn_to(scene, shapes, constraints, work);
-  system.bubbles.emplace(space, shapes);
+  if (space.n_unknowns() < many_unknowns) // else when the potential's factor may have gone
+    system.bubbles.emplace(space, shapes);
 }
 
 bool has_force(const MeshSystem& system, const Scene& scene) {
@@ -294,21 +297,24 @@ void make_force(const RingSpace& space, const Scene& scene,
 
 } // namespace
 
+bool is_certificate_prepared(const Scene& scene, const MeshSystem& system) {
+  return has_potential(system, scene) && has_force(system, scene);
+}
+
 void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         std::launch beside, MeshSystem& system, Work& work) {
-  if (has_potential(system, scene) && has_force(system, scene))
+                         bool in_threads, MeshSystem& system, Work& work) {
+  if (is_certificate_prepared(scene, system))
     return;
   const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
   const AffineConstraints<double> constraints =
       potential_constraints(space, scene, no_pressures, ForceJumps());
-  std::future<void> potential;
-  if (!has_potential(system, scene))
-    potential =
-        std::async(beside, [&] { make_potential(space, scene, kind, constraints, system, work); });
+  TaskBeside potential(in_threads, [&] {
+    if (!has_potential(system, scene))
+      make_potential(space, scene, kind, constraints, system, work);
+  });
   if (!has_force(system, scene))
     make_force(space, scene, constraints, system);
-  if (potential.valid())
-    potential.get();
+  potential.finish();
 }
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
@@ -317,9 +323,9 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const SolverKind kind = system.stiffness.kind;
-  const bool has_two_parts = scene.has_uneven_force() && kind != SolverKind::iterative;
-  prepare_certificate(space, scene, kind, has_two_parts ? launch_beside() : std::launch::deferred,
-                      system, work);
+  const bool is_long = scene.has_uneven_force(); // to look at
+  prepare_certificate(space, scene, kind,
+                      is_long && kind != SolverKind::iterative && gains_by_threads(), system, work);
   DualParts& dual = *system.dual;
   const QGauss<1>& gauss = dual.gauss;
   const QGauss<1> along_road(degree + 6);
@@ -335,6 +341,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
       dual.shapes, constraints, is_uneven ? &dual.of_force->to_potential : nullptr, work);
   if (!system.is_kept)
     system.potential.reset();
+  if (!system.bubbles)
+    system.bubbles.emplace(space, dual.shapes);
 
   const auto& triangulation = space.dof_handler().get_triangulation();
   const AngularBubbles bubbles(space, scene, dual.shapes, potential, pressures,

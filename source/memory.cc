@@ -26,8 +26,8 @@ constexpr double mebibyte = 1024. * 1024;
 /// What libraries allocate besides, most of them without a way to tell that they could not.
 constexpr double libraries_bytes = 64 * mebibyte;
 
-/// The bytes that the machine, or what a batch system gives of it, has left without taking them
-/// from others, if known.
+} // namespace
+
 double available_memory() {
   double available = memory_of_control_groups();
   std::ifstream meminfo("/proc/meminfo");
@@ -38,8 +38,6 @@ double available_memory() {
       available = std::min(available, 1024 * kibibytes);
   return available;
 }
-
-} // namespace
 
 std::optional<double> memory_below_limit() {
   double total, resident, shared, text, libraries, data;
@@ -57,10 +55,6 @@ std::optional<double> memory_below_limit() {
   consider(RLIMIT_AS, total);
   consider(RLIMIT_DATA, data);
   return room;
-}
-
-bool is_memory_scarce() {
-  return memory_below_limit() || available_memory() < 2048 * mebibyte;
 }
 
 void reserve_blas_memory() {

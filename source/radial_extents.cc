@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -41,6 +42,9 @@ std::vector<CellColumn> RadialExtents::around(double z) const {
     for (const double turn : {0., 2 * numbers::PI})
       if (interval.first < turn + z && turn + z < interval.second)
         columns.push_back({interval.first - turn, interval.second - turn, radii});
+  std::sort(columns.begin(), columns.end(), [](const CellColumn& left, const CellColumn& right) {
+    return std::pair(left.begin, left.end) < std::pair(right.begin, right.end);
+  });
   return columns;
 }
 

@@ -9,13 +9,12 @@
 #include "refinement.h"
 #include "residual_indicator.h"
 #include "ring_mesh.h"
-#include "threads.h"
+#include "task_beside.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -63,34 +62,54 @@ std::string left_out_text(const std::string& what, const NotSolved& failure,
   return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
 }
 
-/// Prepares the certificate while the scene is solved, where it takes no time then. Both need
-/// memory at once.
-std::future<Work> prepare_beside(const Scene& scene, const Parameters& parameters,
-                                 Solution& solution) {
-  const std::launch beside = launch_beside();
-  if (beside == std::launch::deferred || solution.space->n_unknowns() >= many_unknowns ||
-      parameters.solver.kind == SolverKind::iterative)
-    return {};
-  make_load(scene, parameters, *solution.space, solution.system, solution.result.work);
-  return std::async(beside, [&scene, &space = *solution.space, &system = solution.system] {
-    Work work;
-    prepare_certificate(space, scene, SolverKind::direct, std::launch::deferred, system, work);
-    return work;
-  });
+/// Whether it gains time, and leaves enough memory to solve @p scene directly, to prepare the
+/// certificate at once.
+bool gains_by_preparing(const Scene& scene, const Parameters& parameters,
+                        const Solution& solution) {
+  const double n = solution.space->n_unknowns(), m = solution.space->contact_nodes().size();
+  const double bytes = 4 * (1024 * n + sizeof(double) * m * m); // twice what both take
+  return parameters.solver.kind != SolverKind::iterative &&
+         solution.system.stiffness.kind != SolverKind::iterative && n < many_unknowns &&
+         !is_certificate_prepared(scene, solution.system) && gains_by_threads() &&
+         bytes < available_memory();
 }
+
+/// Prepares a certificate while the scene is solved.
+class Preparation {
+public:
+  Preparation(const Scene& scene, Solution& solution)
+      : solution(solution), task(true, [this, &scene, &solution] {
+          prepare_certificate(*solution.space, scene, SolverKind::direct, false, solution.system,
+                              work);
+        }) {}
+
+  /// @throws as prepare_certificate(), but leaves what lacked memory to certify()
+  void finish() {
+    const Work::Phase phase(solution.result.work, "certificate");
+    try {
+      task.finish();
+    } catch (const NotEnoughMemory&) {
+      solution.system.potential.reset();
+    }
+    solution.result.work.add_counts(work);
+  }
+
+private:
+  Solution& solution;
+  Work work;
+  TaskBeside task;
+};
 
 /// A certificate that fails, such as for want of memory, leaves the solution as it is, with a
 /// shortfall. Where an error is wanted and the mesh before was certified, this one counts as not
 /// solved.
 /// @throws NotSolved then.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
-                      std::future<Work>& preparation, Solution& solution) {
+                      std::optional<Preparation>& preparation, Solution& solution) {
   Result& result = solution.result;
   try {
-    if (preparation.valid()) {
-      const Work::Phase phase(result.work, "certificate");
-      result.work.add_counts(preparation.get());
-    }
+    if (preparation)
+      preparation->finish();
     solution.certificate = certify(*solution.space, scene, on_mesh.problem, on_mesh.contact,
                                    on_mesh.displacement, solution.system, result.work);
   } catch (const NotSolved& failure) {
@@ -233,9 +252,15 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     const bool is_last = cycle == most_cycles(parameters);
     const bool is_used_again = keep == Keep::everything ||
                                (parameters.certificate.load_bounds && most_cycles(parameters) == 0);
-    std::future<Work> preparation;
-    if (certifies && (is_last || wants_error))
-      preparation = prepare_beside(scene, parameters, solution);
+    // Its threads gain nothing there, and take the cores from others while they wait for more.
+    std::optional<BlasOnOneThread> blas;
+    if (solution.space->n_unknowns() < many_unknowns)
+      blas.emplace();
+    std::optional<Preparation> preparation;
+    if (certifies && (is_last || wants_error) && gains_by_preparing(scene, parameters, solution)) {
+      make_load(scene, parameters, *solution.space, solution.system, result.work);
+      preparation.emplace(scene, solution);
+    }
     MeshSolution on_mesh =
         solve_on_mesh(scene, parameters, *solution.space,
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
