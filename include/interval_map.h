@@ -3,6 +3,8 @@
 
 #include <boost/functional/hash.hpp>
 
+#include <cstddef>
+#include <deque>
 #include <unordered_map>
 #include <utility>
 
@@ -14,32 +16,40 @@ template <typename T>
 class IntervalMap {
 public:
   using Interval = std::pair<double, double>;
-  using Entries = std::unordered_map<Interval, T, boost::hash<Interval>>;
-
-  IntervalMap() = default;
-  IntervalMap(IntervalMap&&) = default;
-  IntervalMap(const IntervalMap&) = delete; // `recent` would stay with the other
-  IntervalMap& operator=(const IntervalMap&) = delete;
 
   /// @param make returns it, called without arguments
   template <typename Make>
   T& at(double begin, double end, const Make& make) {
     const Interval interval(begin, end);
-    if (!recent || recent->first != interval) {
-      auto entry = known.find(interval);
-      if (entry == known.end())
-        entry = known.emplace(interval, make()).first;
-      recent = &*entry;
+    if (recent < made.size() && made[recent].first == interval)
+      return made[recent].second;
+    // Cells of a uniform mesh come from the inside out, one row after another.
+    if (++recent >= made.size())
+      recent = 0;
+    if (recent >= made.size() || made[recent].first != interval) {
+      const auto number = numbers.find(interval);
+      recent = number == numbers.end() ? made.size() : number->second;
     }
-    return recent->second;
+    if (recent == made.size()) {
+      made.emplace_back(interval, make());
+      numbers.emplace(interval, recent);
+    }
+    return made[recent].second;
   }
 
-  /// All that are made, in any order.
-  const Entries& entries() const { return known; }
+  /// nullptr where it is not made.
+  const T* find(double begin, double end) const {
+    const auto number = numbers.find({begin, end});
+    return number == numbers.end() ? nullptr : &made[number->second].second;
+  }
+
+  /// All that are made, in that order.
+  const std::deque<std::pair<Interval, T>>& entries() const { return made; }
 
 private:
-  Entries known;
-  typename Entries::value_type* recent = nullptr;
+  std::deque<std::pair<Interval, T>> made;
+  std::unordered_map<Interval, std::size_t, boost::hash<Interval>> numbers;
+  std::size_t recent = 0;
 };
 
 } // namespace rollwave

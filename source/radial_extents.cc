@@ -32,8 +32,8 @@ RadialExtents::RadialExtents(const RingSpace& space) {
 }
 
 RadialExtent RadialExtents::of(double begin, double end) const {
-  const auto entry = known.entries().find({begin, end});
-  return entry == known.entries().end() ? RadialExtent() : entry->second;
+  const RadialExtent* const extent = known.find(begin, end);
+  return extent ? *extent : RadialExtent();
 }
 
 std::vector<CellColumn> RadialExtents::around(double z) const {
