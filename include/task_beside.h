@@ -22,7 +22,7 @@ public:
   BlasOnOneThread& operator=(const BlasOnOneThread&) = delete;
 
 private:
-  int n_threads; ///< before
+  const int n_threads; ///< before
 };
 
 /// A task that may go on beside its caller.

@@ -18,9 +18,14 @@ Function* of_openblas(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
+/// 1 where BLAS is another.
+int blas_threads() {
+  const auto get = of_openblas<int()>("openblas_get_num_threads");
+  return get ? get() : 1;
+}
+
 void set_blas_threads(int n_threads) {
-  if (const auto set = of_openblas<void(int)>("openblas_set_num_threads"))
-    set(n_threads);
+  of_openblas<void(int)>("openblas_set_num_threads")(n_threads);
 }
 
 } // namespace
@@ -30,14 +35,14 @@ bool gains_by_threads() {
          !memory_below_limit();
 }
 
-BlasOnOneThread::BlasOnOneThread() {
-  const auto get = of_openblas<int()>("openblas_get_num_threads");
-  n_threads = get ? get() : 1;
-  set_blas_threads(1);
+BlasOnOneThread::BlasOnOneThread() : n_threads(blas_threads()) {
+  if (n_threads > 1)
+    set_blas_threads(1);
 }
 
 BlasOnOneThread::~BlasOnOneThread() {
-  set_blas_threads(n_threads);
+  if (n_threads > 1)
+    set_blas_threads(n_threads);
 }
 
 TaskBeside::TaskBeside(bool in_thread, std::function<void()> task) {
