@@ -2,7 +2,6 @@
 #define ROLLWAVE_CERTIFICATE_H
 
 #include "feasible_trace.h"
-#include "parameters.h"
 #include "result.h"
 
 #include <vector>
@@ -49,19 +48,6 @@ struct Certificate {
   double energy;                   ///< J(v) with f_0 in place of f
   double work_of_rest;             ///< (f_0, v - u_h), u_h the displacement certified
 };
-
-/// Makes the dual parts of @p system that the certificates of all solutions of a scene have in
-/// common, unless it has them: the matrix of the potential and what belongs to the force, of which
-/// neither knows the other. Of the parts that are there already it looks at the load only, so that
-/// it may run while the scene is solved.
-/// @param kind that of the potential's solver
-/// @param in_threads whether the one is made while the other is looked at
-/// @throws BadInput where the force is not finite, NotSolved when memory is short
-void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         bool in_threads, MeshSystem& system, Work& work);
-
-/// Whether it has nothing to do.
-bool is_certificate_prepared(const Scene& scene, const MeshSystem& system);
 
 /// Certifies the solution @p contact with the displacement @p field. @p system is that of the same
 /// space, with the load of the scene. Its dual parts are prepared here when it lacks them, and

@@ -1,11 +1,11 @@
 #include "certificate.h"
 
 #include "angular_bubbles.h"
+#include "certificate_parts.h"
 #include "constant_size.h"
 #include "edge_pressure.h"
 #include "force_columns.h"
 #include "interval_map.h"
-#include "memory.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "potential_kinks.h"
@@ -19,9 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
-#include <string>
 
 namespace rollwave {
 
@@ -265,57 +263,7 @@ std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const Force
   return ends;
 }
 
-/// The name of the scene's force among those of a system.
-std::string force_of(const Scene& scene, const MeshSystem& system) {
-  return scene.force ? system.force : "";
-}
-
-bool has_potential(const MeshSystem& system, const Scene& scene) {
-  return system.potential && system.potential->belongs_to(scene);
-}
-
-void make_potential(const RingSpace& space, const Scene& scene, SolverKind kind,
-                    const AffineConstraints<double>& constraints, MeshSystem& system, Work& work) {
-  if (!system.potential)
-    system.potential = std::make_unique<DualPotential>(space, kind);
-  RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree, system.breaks);
-  system.bubbles.reset();
-  system.potential->turn_to(scene, shapes, constraints, work);
-  if (space.n_unknowns() < many_unknowns) // else when the potential's factor may have gone
-    system.bubbles.emplace(space, shapes);
-}
-
-bool has_force(const MeshSystem& system, const Scene& scene) {
-  return system.dual && system.dual->belong_to(scene, force_of(scene, system));
-}
-
-void make_force(const RingSpace& space, const Scene& scene,
-                const AffineConstraints<double>& constraints, MeshSystem& system) {
-  system.dual = std::make_unique<DualParts>(space, scene, force_of(scene, system), system.moments,
-                                            system.breaks, constraints);
-}
-
 } // namespace
-
-bool is_certificate_prepared(const Scene& scene, const MeshSystem& system) {
-  return has_potential(system, scene) && has_force(system, scene);
-}
-
-void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         bool in_threads, MeshSystem& system, Work& work) {
-  if (is_certificate_prepared(scene, system))
-    return;
-  const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
-  const AffineConstraints<double> constraints =
-      potential_constraints(space, scene, no_pressures, ForceJumps());
-  TaskBeside potential(in_threads, [&] {
-    if (!has_potential(system, scene))
-      make_potential(space, scene, kind, constraints, system, work);
-  });
-  if (!has_force(system, scene))
-    make_force(space, scene, constraints, system);
-  potential.finish();
-}
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field, MeshSystem& system,

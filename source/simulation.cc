@@ -1,5 +1,6 @@
 #include "simulation.h"
 
+#include "certificate_parts.h"
 #include "errors.h"
 #include "interrupt.h"
 #include "load_bounds.h"
