@@ -38,8 +38,13 @@ install_missing() {
 # build TARGET [DIRECTORY] [OPTIONS of cmake]
 build() {
   local target=$1 directory=${2:-build}
-  # With tests or without, the objects of the program are the same and stay.
-  cmake -S . -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release "${@:3}" >build.log 2>&1 &&
+  # In one piece for each core, which read deal.II's headers once: a quarter of the time. With tests
+  # or without, the objects of the program are the same and stay.
+  local sources=(source/*.cc) cores
+  cores=$(nproc)
+  cmake -S . -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
+    -DCMAKE_UNITY_BUILD_BATCH_SIZE=$(((${#sources[@]} + cores - 1) / cores)) \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${@:3}" >build.log 2>&1 &&
     cmake --build "$directory" --target "$target" >>build.log 2>&1 || {
     cat build.log >&2
     exit 1

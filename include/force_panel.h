@@ -99,6 +99,8 @@ struct ForcePanel {
   Missed beside_mean;                      ///< likewise
 
 private:
+  static constexpr unsigned int n = ForcePiece::n_coefficients; ///< in each direction
+
   void interpolate(const Scene& scene);
 
   /// What is left out by f_0, and would be by the mean of f.

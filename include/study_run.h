@@ -3,7 +3,6 @@
 
 #include "result.h"
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,8 +38,8 @@ std::map<std::string, double> figures_of(const Result& result);
 /// `reference`, `failure`, then the figures in full precision.
 std::string study_csv(const std::vector<StudyRun>& runs);
 
-/// The runs that study_csv() wrote, without their settings and published steps; none when the file
-/// is not there or has other columns, and none from the first row on that lacks fields.
+/// The runs that study_csv() wrote, without their settings and published steps; none where it
+/// has other columns, and none from the first row on that lacks fields or its end.
 std::vector<StudyRun> read_study_csv(const std::string& text);
 
 } // namespace rollwave

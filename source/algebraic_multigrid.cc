@@ -18,23 +18,6 @@ using namespace dealii;
 
 namespace {
 
-/// hypre's objects for a vector.
-struct HypreVector {
-  HYPRE_IJVector handle;
-  HYPRE_ParVector vector;
-
-  HypreVector(MPI_Comm communicator, HYPRE_BigInt first, HYPRE_BigInt last) {
-    HYPRE_IJVectorCreate(communicator, first, last, &handle);
-    HYPRE_IJVectorSetObjectType(handle, HYPRE_PARCSR);
-    HYPRE_IJVectorInitialize(handle);
-    HYPRE_IJVectorAssemble(handle);
-    HYPRE_IJVectorGetObject(handle, reinterpret_cast<void**>(&vector));
-  }
-  ~HypreVector() { HYPRE_IJVectorDestroy(handle); }
-  HypreVector(const HypreVector&) = delete;
-  HypreVector& operator=(const HypreVector&) = delete;
-};
-
 /// The number of the first own row: where the processes before have none, it is not in the map.
 HYPRE_BigInt first_row(HYPRE_Int n_rows, MPI_Comm communicator) {
   HYPRE_BigInt rows = n_rows, rows_so_far = 0;
@@ -45,10 +28,27 @@ HYPRE_BigInt first_row(HYPRE_Int n_rows, MPI_Comm communicator) {
 } // namespace
 
 struct AlgebraicMultigrid::Hypre {
+  /// hypre's objects for a vector.
+  struct Vector {
+    HYPRE_IJVector handle;
+    HYPRE_ParVector vector;
+
+    Vector(MPI_Comm communicator, HYPRE_BigInt first, HYPRE_BigInt last) {
+      HYPRE_IJVectorCreate(communicator, first, last, &handle);
+      HYPRE_IJVectorSetObjectType(handle, HYPRE_PARCSR);
+      HYPRE_IJVectorInitialize(handle);
+      HYPRE_IJVectorAssemble(handle);
+      HYPRE_IJVectorGetObject(handle, reinterpret_cast<void**>(&vector));
+    }
+    ~Vector() { HYPRE_IJVectorDestroy(handle); }
+    Vector(const Vector&) = delete;
+    Vector& operator=(const Vector&) = delete;
+  };
+
   const HYPRE_Int n_rows;
   const HYPRE_BigInt first;
   std::vector<HYPRE_BigInt> rows;
-  HypreVector rhs, solution;
+  Vector rhs, solution;
   HYPRE_IJMatrix matrix;
   HYPRE_ParCSRMatrix parallel_matrix;
   HYPRE_Solver cycle;

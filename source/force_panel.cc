@@ -17,8 +17,6 @@ using namespace dealii;
 
 namespace {
 
-constexpr unsigned int n = ForcePiece::n_coefficients;
-
 /// Gauss' points of a panel in one direction, and more on which f_0 is compared with f.
 struct PanelPoints {
   PanelPoints()
@@ -34,6 +32,7 @@ struct PanelPoints {
     }
   }
 
+  static constexpr unsigned int n = ForcePiece::n_coefficients;
   const QGauss<1> gauss;
   const QGaussLobatto<1> fine;
   FullMatrix<double> to_coefficients, to_values;

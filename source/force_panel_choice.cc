@@ -20,8 +20,8 @@ using namespace dealii;
 
 namespace {
 
-constexpr double round_off = 1e-13; ///< of f_0
-constexpr double smallest = 4e-15;  ///< panel, over its distance from the origin
+constexpr double round_off_of_force = 1e-13; ///< of f_0
+constexpr double smallest = 4e-15;           ///< panel, over its distance from the origin
 
 /// Sizes and places of cells are often those of panels, and round-off shall not decide.
 constexpr double slight = 1e-9; ///< over sizes of panels
@@ -41,7 +41,7 @@ public:
     most_panels = panels.size() + 16 + space.n_unknowns() / 100;
     negligible_squared = std::pow(negligible_error_of_force(space, scene, panels), 2) / most_panels;
     allowed_squared =
-        std::max(std::pow(round_off * norm, 2) / most_panels, 1e-10 * negligible_squared);
+        std::max(std::pow(round_off_of_force * norm, 2) / most_panels, 1e-10 * negligible_squared);
     do
       halve_the_worst(panels.size() + 3 * (most_panels - panels.size()) / 4);
     while (quarter_where_load_points_see_more());

@@ -18,7 +18,7 @@ using namespace dealii;
 
 namespace {
 
-constexpr double period = 2 * numbers::PI;
+constexpr double full_turn = 2 * numbers::PI;
 
 /// Adds the places on a rectangle, the greatest jump first, and on both sides of it, as far as
 /// these are not shorter than @p least.
@@ -64,47 +64,47 @@ std::vector<double> LoadBreaks::radial_ends(double begin, double end) const {
 }
 
 std::vector<double> LoadBreaks::angular_ends(double begin, double end) const {
-  return cut_interval(begin, end, angles, period);
+  return cut_interval(begin, end, angles, full_turn);
 }
 
 LoadBreaks find_load_breaks(const Scene& scene, unsigned int n_cells, MPI_Comm communicator) {
   constexpr unsigned int cells_along = 12;
   const double height = scene.outer_radius - scene.inner_radius,
-               circumference = period * scene.outer_radius;
+               circumference = full_turn * scene.outer_radius;
   const double size = cells_along * std::sqrt(height * circumference / n_cells);
   // Of a thin ring no more in a direction than there are cells.
   const auto count = [&](double length) {
     return std::ceil(std::min(length / size, 1. * n_cells / cells_along));
   };
   const unsigned int n_radial = count(height), n_angular = count(circumference);
-  const Point<2> step(height / n_radial, period / n_angular);
+  const Point<2> step(height / n_radial, full_turn / n_angular);
   const Tensor<1, 2> overlap = step / cells_along;
   LoadBreaks breaks;
   for (unsigned int i = process_number(communicator); i < n_radial * n_angular;
        i += count_processes(communicator)) {
     const Point<2> low(scene.inner_radius + i % n_radial * step[0], i / n_radial * step[1]);
     const Point<2> high(std::min(low[0] + step[0], scene.outer_radius),
-                        std::min(low[1] + step[1], period));
+                        std::min(low[1] + step[1], full_turn));
     // Overlapping, since jumps on an edge are seen on neither side of it.
     const double inner = std::max(low[0] - overlap[0], scene.inner_radius),
                  outer = std::min(high[0] + overlap[0], scene.outer_radius),
                  begin = std::max(low[1] - overlap[1], 0.),
-                 end = std::min(high[1] + overlap[1], period);
+                 end = std::min(high[1] + overlap[1], full_turn);
     add_jumps(scene, {inner, low[1]}, {outer, high[1]}, 0, overlap[0], breaks.radii);
     add_jumps(scene, {low[0], begin}, {high[0], end}, 1, overlap[1], breaks.angles);
     if (low[1] == 0) {
       Scene periodic = scene;
       periodic.force = [&scene](double r, double z) {
-        return scene.force(r, z < period ? z : z - period);
+        return scene.force(r, z < full_turn ? z : z - full_turn);
       };
       // So narrow that other jumps beside the period do not hide its own.
       const double beside = overlap[1] / 1000;
-      add_jumps(periodic, {low[0], period - beside}, {high[0], period + beside}, 1, overlap[1],
-                breaks.angles);
+      add_jumps(periodic, {low[0], full_turn - beside}, {high[0], full_turn + beside}, 1,
+                overlap[1], breaks.angles);
     }
   }
   for (double& angle : breaks.angles)
-    angle = angle < period ? angle : angle - period;
+    angle = angle < full_turn ? angle : angle - full_turn;
   return {of_all(std::move(breaks.radii), communicator),
           of_all(std::move(breaks.angles), communicator)};
 }

@@ -16,7 +16,7 @@ namespace rollwave {
 
 namespace {
 
-constexpr int n_points = 48;
+constexpr int n_gauss = 48;
 
 /// The hub has no effect on the surface beyond this exponent: exp(-2 * 21) < 1e-18.
 constexpr double negligible_exponent = 21;
@@ -47,13 +47,13 @@ double logarithmic_derivative(double k, double x) {
 
 /// Gauss-Legendre points on [-1, 1] and the matrix of integrals from each point to 1.
 struct SpectralIntegration {
-  std::array<double, n_points> point;
-  std::array<double, n_points> weight;
-  std::array<std::array<double, n_points>, n_points> to_the_right;
+  std::array<double, n_gauss> point;
+  std::array<double, n_gauss> weight;
+  std::array<std::array<double, n_gauss>, n_gauss> to_the_right;
 
   SpectralIntegration() {
-    const dealii::QGauss<1> gauss(n_points);
-    for (int i = 0; i < n_points; ++i) {
+    const dealii::QGauss<1> gauss(n_gauss);
+    for (int i = 0; i < n_gauss; ++i) {
       point[i] = 2 * gauss.point(i)[0] - 1;
       weight[i] = 2 * gauss.weight(i);
     }
@@ -62,10 +62,10 @@ struct SpectralIntegration {
     const auto legendre = [](int m, double x) {
       return m < 0 ? 1. : boost::math::legendre_p(m, x);
     };
-    for (int i = 0; i < n_points; ++i)
-      for (int j = 0; j < n_points; ++j) {
+    for (int i = 0; i < n_gauss; ++i)
+      for (int j = 0; j < n_gauss; ++j) {
         double sum = 0;
-        for (int m = 0; m < n_points; ++m)
+        for (int m = 0; m < n_gauss; ++m)
           sum += legendre(m, point[j]) * (legendre(m - 1, point[i]) - legendre(m + 1, point[i]));
         to_the_right[i][j] = weight[j] * sum / 2;
       }
@@ -81,7 +81,7 @@ const SpectralIntegration& spectral_integration() {
 
 /// theta and its integral at the points, and the integral of 1/g^2.
 struct RadialModes::Samples {
-  std::array<double, n_points> exponent; ///< int_y^(ln b) theta
+  std::array<double, n_gauss> exponent; ///< int_y^(ln b) theta
   double theta_at_surface;
   double largest_exponent; ///< from the hub to the surface
   double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
@@ -105,17 +105,17 @@ RadialModes::RadialModes(double inner_radius, double outer_radius, double angula
 RadialModes::Samples RadialModes::sample(double k) const {
   const SpectralIntegration& rule = spectral_integration();
   const double depth = log_of_ratio(b, a);
-  std::array<double, n_points> theta;
-  for (int i = 0; i < n_points; ++i)
+  std::array<double, n_gauss> theta;
+  for (int i = 0; i < n_gauss; ++i)
     theta[i] = logarithmic_derivative(k, k * omega * b * std::exp((rule.point[i] - 1) * depth / 2));
 
   Samples samples;
   samples.theta_at_surface = logarithmic_derivative(k, k * omega * b);
   samples.largest_exponent = 0;
   samples.q = 0;
-  for (int i = 0; i < n_points; ++i) {
+  for (int i = 0; i < n_gauss; ++i) {
     double exponent = 0;
-    for (int j = 0; j < n_points; ++j)
+    for (int j = 0; j < n_gauss; ++j)
       exponent += rule.to_the_right[i][j] * theta[j];
     samples.exponent[i] = exponent * depth / 2;
     samples.largest_exponent += rule.weight[i] * theta[i] * depth / 2;
@@ -124,7 +124,7 @@ RadialModes::Samples RadialModes::sample(double k) const {
     samples.q = std::numeric_limits<double>::infinity();
     return samples;
   }
-  for (int i = 0; i < n_points; ++i)
+  for (int i = 0; i < n_gauss; ++i)
     samples.q += rule.weight[i] * depth / 2 * std::exp(2 * samples.exponent[i]);
   return samples;
 }
@@ -184,17 +184,17 @@ RadialModes::Profile RadialModes::profile(double k, const std::vector<double>& r
   const Samples samples = sample(k);
   const bool has_hub = std::isfinite(samples.q);
   // int_y^(ln b) dy / g^2 at the points
-  std::array<double, n_points> q_to_the_right;
-  for (int i = 0; i < n_points && has_hub; ++i) {
+  std::array<double, n_gauss> q_to_the_right;
+  for (int i = 0; i < n_gauss && has_hub; ++i) {
     q_to_the_right[i] = 0;
-    for (int j = 0; j < n_points; ++j)
+    for (int j = 0; j < n_gauss; ++j)
       q_to_the_right[i] += rule.to_the_right[i][j] * depth / 2 * std::exp(2 * samples.exponent[j]);
   }
   for (const double r : radii) {
     // Barycentric interpolation between Gauss-Legendre points.
     const double t = 1 + 2 * std::log1p((r - b) / b) / depth;
     double numerator = 0, q_numerator = 0, denominator = 0;
-    for (int i = 0; i < n_points; ++i) {
+    for (int i = 0; i < n_gauss; ++i) {
       const double distance = t - rule.point[i];
       if (distance == 0) {
         numerator = samples.exponent[i];

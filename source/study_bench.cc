@@ -70,6 +70,8 @@ Reference compute_reference(const Scene& scene, const Parameters& parameters,
   return reference;
 }
 
+} // namespace
+
 /// Runs that differ in their mesh only share their reference.
 class References {
 public:
@@ -147,6 +149,8 @@ private:
   std::optional<MeshKey> last_key;
   std::optional<Solution> solution;
 };
+
+namespace {
 
 void solve(const Parameters& parameters, Sweep& sweep, References& references, StudyRun& run) {
   const Scene scene = make_scene(parameters);

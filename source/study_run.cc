@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -185,7 +184,7 @@ std::vector<StudyRun> read_study_csv(const std::string& text) {
   if (line.size() < expected.size() ||
       line.compare(line.size() - expected.size(), expected.size(), expected) != 0)
     return runs;
-  while (std::getline(in, line)) {
+  while (std::getline(in, line) && !in.eof()) { // a row without its end may lack digits
     // Figures are the last fields, and have no commas; the varied values before them may.
     StudyRun run;
     std::size_t end = line.size();

@@ -28,13 +28,6 @@ using dealii::numbers::PI;
 
 namespace {
 
-std::string text(double value) {
-  std::ostringstream out;
-  out.precision(17);
-  out << value;
-  return out.str();
-}
-
 TEST(Certificate, HoldsForRandomScenes) {
   Draw draw(20240607);
   int n_checked = 0;
@@ -49,11 +42,11 @@ TEST(Certificate, HoldsForRandomScenes) {
     const int radial = draw.count(1, 4);
     const int angular = std::max(
         3, static_cast<int>(radial * 2 * PI * (a + b) / 2 / (b - a) * draw.number(0.3, 2)));
-    const std::vector<std::string> settings = {"Cylinder/Inner radius=" + text(a),
-                                               "Cylinder/Outer radius=" + text(b),
-                                               "Cylinder/Angular velocity=" + text(omega),
-                                               "Cylinder/Radial force=" + text(f),
-                                               "Road/Distance=" + text(c),
+    const std::vector<std::string> settings = {"Cylinder/Inner radius=" + digits(a),
+                                               "Cylinder/Outer radius=" + digits(b),
+                                               "Cylinder/Angular velocity=" + digits(omega),
+                                               "Cylinder/Radial force=" + digits(f),
+                                               "Road/Distance=" + digits(c),
                                                "Mesh/Degree=" + std::to_string(draw.count(1, 2)),
                                                "Mesh/Radial cells=" + std::to_string(radial),
                                                "Mesh/Angular cells=" + std::to_string(angular),
@@ -216,13 +209,13 @@ TEST(Certificate, IsSharpInThinRings) {
       std::optional<ExactSolution> exact;
       for (const int degree : {1, 2})
         for (const double wanted : {0.03, 0.005}) {
-          const std::vector<std::string> settings = {"Cylinder/Inner radius=" + text(a),
-                                                     "Cylinder/Angular velocity=" + text(omega),
-                                                     "Road/Distance=" + text((1 + a) / 2),
+          const std::vector<std::string> settings = {"Cylinder/Inner radius=" + digits(a),
+                                                     "Cylinder/Angular velocity=" + digits(omega),
+                                                     "Road/Distance=" + digits((1 + a) / 2),
                                                      "Mesh/Degree=" + std::to_string(degree),
                                                      "Mesh/Radial cells=2",
                                                      "Mesh/Angular cells=120",
-                                                     "Mesh/Wanted relative error=" + text(wanted),
+                                                     "Mesh/Wanted relative error=" + digits(wanted),
                                                      "Mesh/Most unknowns=40000"};
           SCOPED_TRACE(testing::PrintToString(settings));
           const Parameters parameters = parameters_of(settings);
@@ -254,8 +247,8 @@ TEST(Certificate, HoldsInTheThinnestRingsAtTheCriticalSpeed) {
       for (int cycles = 0; cycles <= 5; ++cycles) {
         const Parameters parameters =
             with(paper_scenes()[0].parameters(),
-                 {"Cylinder/Inner radius=" + text(1 - thickness), "Cylinder/Angular velocity=1",
-                  "Road/Distance=" + text(1 - 0.3 * thickness),
+                 {"Cylinder/Inner radius=" + digits(1 - thickness), "Cylinder/Angular velocity=1",
+                  "Road/Distance=" + digits(1 - 0.3 * thickness),
                   "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4",
                   "Mesh/Angular cells=40", "Mesh/Adaptive cycles=" + std::to_string(cycles)});
         certified.push_back(*simulate(make_scene(parameters), parameters).result.certified);
@@ -329,7 +322,7 @@ TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
         with(paper_scenes()[0].parameters(),
              {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4", "Road/Distance=1.3",
               "Mesh/Angular cells=" + std::to_string(angular_cells),
-              "Cylinder/Radial force=if(z<" + text(at) + ",1,0)"});
+              "Cylinder/Radial force=if(z<" + digits(at) + ",1,0)"});
     return *simulate(make_scene(parameters), parameters).result.certified;
   };
   for (const double share : {-0.01, 0.01}) {
@@ -362,8 +355,8 @@ TEST(Certificate, SeesAStripOfAFewCells) {
         with(paper_scenes()[0].parameters(),
              {"Mesh/Degree=2", "Mesh/Radial cells=" + std::to_string(radial_cells),
               "Road/Distance=1.3", "Mesh/Angular cells=" + std::to_string(angular_cells),
-              "Cylinder/Radial force=1+if(abs(z-" + text(begin + 1.5 * cell) + ")<" +
-                  text(1.5 * cell) + ",5,0)"});
+              "Cylinder/Radial force=1+if(abs(z-" + digits(begin + 1.5 * cell) + ")<" +
+                  digits(1.5 * cell) + ",5,0)"});
     return *simulate(make_scene(parameters), parameters).result.certified;
   };
   for (const int line : {224, 226, 228}) {
@@ -400,7 +393,7 @@ TEST(Certificate, RefinesWhereGIsSingularBesideTheForce) {
         with(paper_scenes()[0].parameters(),
              {"Cylinder/Radial force=if((r-0.8)^2+(z-2)^2<0.01,1,0)", "Mesh/Degree=2",
               "Mesh/Radial cells=4", "Mesh/Angular cells=48",
-              "Mesh/Wanted relative error=" + text(wanted)});
+              "Mesh/Wanted relative error=" + digits(wanted)});
     const Result result = simulate(make_scene(parameters), parameters).result;
     EXPECT_LE(result.certified->relative, wanted);
     return result.mesh.dofs;

@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_TESTS_DRAW_H
 #define ROLLWAVE_TESTS_DRAW_H
 
+#include <cmath>
 #include <cstdlib>
 #include <random>
 #include <vector>
@@ -21,6 +22,7 @@ public:
   double number(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine);
   }
+  double power_of_ten(double low, double high) { return std::pow(10., number(low, high)); }
   int count(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine); }
   template <typename T>
   T one_of(const std::vector<T>& choices) {

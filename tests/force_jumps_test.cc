@@ -16,15 +16,14 @@
 #include <vector>
 
 using namespace rollwave;
+using dealii::numbers::PI;
 
 namespace {
-
-constexpr double a = 0.5, b = 1, PI = dealii::numbers::PI;
 
 std::optional<double> find_jump(const std::string& force, unsigned int direction) {
   const Scene scene =
       make_scene(with(paper_scenes()[0].parameters(), {"Cylinder/Radial force=" + force}));
-  return straight_jump(scene, {a, 0}, {b, 2 * PI}, direction);
+  return straight_jump(scene, {scene.inner_radius, 0}, {scene.outer_radius, 2 * PI}, direction);
 }
 
 } // namespace
@@ -97,7 +96,7 @@ TEST(PotentialKinks, TakeTheJumpOfG) {
     const double t = (2 - 1.95) / 0.07;
     const auto before = derivatives_at(t - 1e-6), after = derivatives_at(t + 1e-6);
     for (unsigned int i = 0; i < radii.size(); ++i)
-      EXPECT_NEAR(after[i] - before[i], -share * (b * b - radii[i] * radii[i]), 1e-12);
+      EXPECT_NEAR(after[i] - before[i], -share * (1 - radii[i] * radii[i]), 1e-12);
     for (const double end_of_cell : {0., 1.}) {
       std::vector<double> values(4), derivatives(4);
       kinks.add_to(end_of_cell, values.data(), derivatives.data());

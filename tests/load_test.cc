@@ -17,10 +17,11 @@
 #include <vector>
 
 using namespace rollwave;
+using dealii::numbers::PI;
 
 namespace {
 
-constexpr double a = 0.5, b = 1, PI = dealii::numbers::PI;
+constexpr double hub = 0.5, surface = 1;
 
 /// Figure 4 under another force.
 Parameters under(const std::string& force, const std::vector<std::string>& settings) {
@@ -81,10 +82,10 @@ TEST(LoadBreaks, CutIntervals) {
             Places({1.9, 2, 2 * PI, 2 * PI + 2, 2 * PI + 2.5}));
 }
 
-// (f, w) = int r f w dr dz for w = r - a, for which the rule is exact on parts without a jump.
+// (f, w) = int r f w dr dz for w = r - hub, for which the rule is exact on parts without a jump.
 TEST(Load, IsExactWhereTheForceJumps) {
-  const auto moment = [](double begin, double end) { // int r (r - a) dr
-    return (std::pow(end, 3) - std::pow(begin, 3)) / 3 - a * (end * end - begin * begin) / 2;
+  const auto moment = [](double begin, double end) { // int r (r - hub) dr
+    return (std::pow(end, 3) - std::pow(begin, 3)) / 3 - hub * (end * end - begin * begin) / 2;
   };
   for (const std::string degree : {"1", "2", "3"})
     for (const std::string cells : {"3", "10", "17"}) {
@@ -96,8 +97,9 @@ TEST(Load, IsExactWhereTheForceJumps) {
       FieldVector w = ring.space.make_field();
       dealii::VectorTools::interpolate(
           ring.space.mapping(), ring.space.dof_handler(),
-          dealii::ScalarFunctionFromFunctionObject<2>([](const auto& x) { return x[0] - a; }), w);
-      const double expected = (2.3 - (2 * PI - 2.3)) * (moment(a, 0.7123) + 3 * moment(0.7123, b));
+          dealii::ScalarFunctionFromFunctionObject<2>([](const auto& x) { return x[0] - hub; }), w);
+      const double expected =
+          (2.3 - (2 * PI - 2.3)) * (moment(hub, 0.7123) + 3 * moment(0.7123, surface));
       EXPECT_NEAR(assemble_load(ring.space, scene).vector * w / expected, 1, 1e-13);
     }
 }

@@ -16,7 +16,7 @@ using namespace rollwave;
 
 namespace {
 
-std::string refusal_of(const std::string& assignment) {
+std::string refusal_of_setting(const std::string& assignment) {
   try {
     make_scene(parameters_of({assignment}));
   } catch (const BadInput& error) {
@@ -47,16 +47,16 @@ TEST(Parameters, AreWrittenAndReadBackUnchanged) {
 }
 
 TEST(Parameters, NameTheNearestKeys) {
-  const std::string key = refusal_of("Mesh/Angular cell=3");
+  const std::string key = refusal_of_setting("Mesh/Angular cell=3");
   EXPECT_NE(key.find("Mesh/Angular cells"), std::string::npos) << key;
-  const std::string section = refusal_of("Rod/Distance=0.8");
+  const std::string section = refusal_of_setting("Rod/Distance=0.8");
   EXPECT_NE(section.find("Road/Distance"), std::string::npos) << section;
-  const std::string elsewhere = refusal_of("Cylinder/Distance=0.8");
+  const std::string elsewhere = refusal_of_setting("Cylinder/Distance=0.8");
   EXPECT_NE(elsewhere.find("Road/Distance"), std::string::npos) << elsewhere;
 }
 
 TEST(Parameters, MessagesTellPlaceKeyValueAndWhatIsWanted) {
-  const std::string message = refusal_of("Cylinder/Outer radius=0.25");
+  const std::string message = refusal_of_setting("Cylinder/Outer radius=0.25");
   for (const char* part : {"test", "Cylinder", "Outer radius", "0.25", "inner radius 0.5"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
 }
@@ -101,11 +101,11 @@ TEST(Parameters, RefuseMoreRunsThanAListCanHold) {
   for (const char* key : {"Cylinder/Inner radius", "Cylinder/Outer radius", "Road/Distance",
                           "Mesh/Degree", "Mesh/Radial cells", "Mesh/Angular cells"})
     vary += std::string(key) + " = 1 | 2 | 3 | 4 | 5 | 6 | 7; ";
-  EXPECT_NE(refusal_of(vary + "Contact/Rho = 1").find("at most 100000"), std::string::npos);
+  EXPECT_NE(refusal_of_setting(vary + "Contact/Rho = 1").find("at most 100000"), std::string::npos);
   std::string single = "Study/Vary=K0/K = 1";
   for (int i = 1; i < 1000; ++i)
     single += "; K" + std::to_string(i) + "/K = 1";
-  EXPECT_NE(refusal_of(single).find("At most 20 keys"), std::string::npos);
+  EXPECT_NE(refusal_of_setting(single).find("At most 20 keys"), std::string::npos);
 }
 
 TEST(Parameters, RefuseValuesThatAFileCannotHold) {
@@ -116,11 +116,11 @@ TEST(Parameters, RefuseValuesThatAFileCannotHold) {
 
 TEST(Parameters, RefuseTextsOfAnyLengthShortly) {
   const std::string longest(1 << 20, '(');
-  EXPECT_LT(refusal_of("Cylinder/Radial force=" + longest).size(), 1000u);
-  EXPECT_LT(refusal_of("Cylinder/" + longest + "=1").size(), 1000u);
-  EXPECT_LT(refusal_of("Mesh/Degree=\x1b[2J" + longest).size(), 1000u);
-  EXPECT_EQ(refusal_of("Mesh/Degree=\x1b[2J").find('\x1b'), std::string::npos);
-  EXPECT_EQ(refusal_of("Cylinder/Radial force=\x1b[2J").find('\x1b'), std::string::npos);
+  EXPECT_LT(refusal_of_setting("Cylinder/Radial force=" + longest).size(), 1000u);
+  EXPECT_LT(refusal_of_setting("Cylinder/" + longest + "=1").size(), 1000u);
+  EXPECT_LT(refusal_of_setting("Mesh/Degree=\x1b[2J" + longest).size(), 1000u);
+  EXPECT_EQ(refusal_of_setting("Mesh/Degree=\x1b[2J").find('\x1b'), std::string::npos);
+  EXPECT_EQ(refusal_of_setting("Cylinder/Radial force=\x1b[2J").find('\x1b'), std::string::npos);
 }
 
 TEST(Parameters, SayHowManyUnknownsWereTooMany) {
@@ -153,7 +153,7 @@ TEST(Scene, AdmitsTheCriticalSpeedAndSaysWhatLiesBeyond) {
         parameters_of({"Cylinder/Inner radius=0.1", "Cylinder/Outer radius=0.3",
                        "Road/Distance=0.25", std::string("Cylinder/Angular velocity=") + speed})))
         << speed;
-  EXPECT_NE(refusal_of("Cylinder/Angular velocity=1.01").find("no longer elliptic"),
+  EXPECT_NE(refusal_of_setting("Cylinder/Angular velocity=1.01").find("no longer elliptic"),
             std::string::npos);
 }
 

@@ -1,4 +1,5 @@
 // Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
+#include "draw.h"
 #include "errors.h"
 #include "test_scenes.h"
 #include "verification.h"
@@ -7,40 +8,18 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <random>
 
 using namespace rollwave;
 
 namespace {
 
-/// Numbers from a fixed seed.
-class Draw {
-public:
-  explicit Draw(unsigned int seed) : random(seed) {}
-
-  double from(double low, double high) { return low + (high - low) * unit(random); }
-  double power_of_ten(double low, double high) { return std::pow(10., from(low, high)); }
-  unsigned int below(unsigned int n) { return std::min<unsigned int>(n * unit(random), n - 1); }
-
-private:
-  std::mt19937 random;
-  std::uniform_real_distribution<double> unit{0, 1};
-};
-
-std::string assignment(const char* key, double value) {
-  char text[200];
-  std::snprintf(text, sizeof text, "%s=%.17g", key, value);
-  return text;
-}
-
 /// A scene and a mesh of at most some thousand unknowns.
 std::vector<std::string> draw_scene(Draw& draw) {
-  const double b = draw.below(2) ? draw.power_of_ten(-150, 150) : 1;
-  const double thickness = draw.below(3) ? draw.from(0.1, 0.9) : draw.power_of_ten(-6, -1);
-  const double a = draw.below(4) ? b * (1 - thickness) : b * draw.power_of_ten(-6, -1);
-  double speed = draw.from(0, 1);
-  switch (draw.below(4)) {
+  const double b = draw.count(0, 1) ? draw.power_of_ten(-150, 150) : 1;
+  const double thickness = draw.count(0, 2) ? draw.number(0.1, 0.9) : draw.power_of_ten(-6, -1);
+  const double a = draw.count(0, 3) ? b * (1 - thickness) : b * draw.power_of_ten(-6, -1);
+  double speed = draw.number(0, 1);
+  switch (draw.count(0, 3)) {
   case 0:
     speed = 1;
     break;
@@ -50,8 +29,8 @@ std::vector<std::string> draw_scene(Draw& draw) {
   case 2:
     speed = 0;
   }
-  double c = b - (b - a) * draw.from(0, 1);
-  switch (draw.below(5)) {
+  double c = b - (b - a) * draw.number(0, 1);
+  switch (draw.count(0, 4)) {
   case 0:
     c = b - (b - a) * draw.power_of_ten(-14, 0);
     break;
@@ -59,28 +38,28 @@ std::vector<std::string> draw_scene(Draw& draw) {
     c = a + (b - a) * draw.power_of_ten(-14, 0);
     break;
   case 2:
-    c = draw.from(0.9, 2) * b;
+    c = draw.number(0.9, 2) * b;
   }
   std::vector<std::string> scene = {
       assignment("Cylinder/Outer radius", b), assignment("Cylinder/Inner radius", a),
       assignment("Cylinder/Angular velocity", speed / b), assignment("Road/Distance", c)};
-  switch (draw.below(4)) {
+  switch (draw.count(0, 3)) {
   case 0:
     scene.push_back(assignment("Cylinder/Radial force",
-                               (draw.below(2) ? 1 : -1) * draw.power_of_ten(-3, 8) / b));
+                               (draw.count(0, 1) ? 1 : -1) * draw.power_of_ten(-3, 8) / b));
     break;
   case 1:
-    scene.push_back("Cylinder/Radial force=" + assignment("", draw.from(-1, 1) / b).substr(1) +
+    scene.push_back("Cylinder/Radial force=" + assignment("", draw.number(-1, 1) / b).substr(1) +
                     "*cos(2*z+1)*r/" + assignment("", b).substr(1));
   }
-  if (draw.below(4) == 0) {
-    const double begin = draw.from(3.15, 6.2), end = draw.from(begin, 6.28);
+  if (draw.count(0, 3) == 0) {
+    const double begin = draw.number(3.15, 6.2), end = draw.number(begin, 6.28);
     scene.push_back(assignment("Road/Contact zone", begin) + ", " + assignment("", end).substr(1));
   }
-  const unsigned int degree = 1 + draw.below(3);
+  const unsigned int degree = 1 + draw.count(0, 2);
   scene.push_back("Mesh/Degree=" + std::to_string(degree));
-  scene.push_back("Mesh/Radial cells=" + std::to_string(1 + draw.below(12 / degree)));
-  scene.push_back("Mesh/Angular cells=" + std::to_string(3 + draw.below(120 / degree)));
+  scene.push_back("Mesh/Radial cells=" + std::to_string(draw.count(1, 12 / degree)));
+  scene.push_back("Mesh/Angular cells=" + std::to_string(draw.count(3, 2 + 120 / degree)));
   return scene;
 }
 
@@ -151,8 +130,7 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
 }
 
 TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
-  const char* const wanted = std::getenv("ROLLWAVE_RANDOM_SCENES");
-  const unsigned int n_scenes = wanted ? std::atoi(wanted) : 300;
+  const unsigned int n_scenes = n_random_scenes(300);
   Draw draw(20);
   Counts counts;
   for (unsigned int i = 0; i < n_scenes; ++i) {

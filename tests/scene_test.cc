@@ -234,27 +234,4 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
 
 INSTANTIATE_TEST_SUITE_P(Degree, Symmetry, testing::Values(1, 2));
 
-TEST(Work, IsLeftOutWhereTheSceneDoesNotNeedIt) {
-  const std::string uncertified = "Certificate/Error bound=false";
-  const Result plain = solve(parameters_of({uncertified}));
-  EXPECT_EQ(plain.work.load_assemblies, 0u);
-  EXPECT_EQ(plain.work.forward_substitutions, 0u);
-  EXPECT_EQ(plain.work.factorisations, 1u);
-  EXPECT_EQ(plain.work.back_substitutions, 1u);
-  const Result loaded = solve(parameters_of({uncertified, "Cylinder/Radial force=1"}));
-  EXPECT_EQ(loaded.work.load_assemblies, 1u);
-  EXPECT_EQ(loaded.work.forward_substitutions, 1u);
-  EXPECT_EQ(loaded.work.factorisations, 1u);
-  const Result certified = solve(parameters_of({}));
-  EXPECT_EQ(certified.work.factorisations, 2u);
-  EXPECT_EQ(certified.work.stiffness_assemblies, 1u);
-  // A run that wants only its last mesh certified pays for that once.
-  const Result adaptive = solve(parameters_of({"Mesh/Adaptive cycles=3"}));
-  EXPECT_EQ(adaptive.cycles.size(), 4u);
-  EXPECT_EQ(adaptive.work.factorisations, 5u);
-  const Result free = solve(parameters_of({"Road/Distance=1.01"}));
-  EXPECT_EQ(free.history.size(), 1u);
-  EXPECT_EQ(free.energy.value, 0);
-}
-
 } // namespace

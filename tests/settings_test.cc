@@ -17,7 +17,7 @@ std::vector<Setting> read_text(const std::string& text) {
   return read_settings(file);
 }
 
-std::string refusal_of(const std::string& text) {
+std::string refusal_of_text(const std::string& text) {
   try {
     read_text(text);
   } catch (const BadInput& error) {
@@ -44,13 +44,16 @@ TEST(Settings, MayBeginWithAByteOrderMark) {
 }
 
 TEST(Settings, RefuseWhatIsNotOfTheGrammar) {
-  EXPECT_NE(refusal_of("subsection Mesh\nDegree = 2\nend\n").find("line 2"), std::string::npos);
-  EXPECT_NE(refusal_of("subsection Mesh\nset Degree 2\nend\n").find("line 2"), std::string::npos);
-  EXPECT_NE(refusal_of("end\n").find("without a subsection"), std::string::npos);
-  EXPECT_NE(refusal_of("subsection Mesh\n").find("not closed"), std::string::npos);
-  EXPECT_NE(refusal_of("subsection A\nsubsection B\nend\nend\n").find("inside"), std::string::npos);
-  EXPECT_NE(refusal_of("subsection\nend\n").find("name"), std::string::npos);
-  EXPECT_NE(refusal_of("subsection A\nset B = 1\nset B = 2\nend\n").find("second time"),
+  EXPECT_NE(refusal_of_text("subsection Mesh\nDegree = 2\nend\n").find("line 2"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_text("subsection Mesh\nset Degree 2\nend\n").find("line 2"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_text("end\n").find("without a subsection"), std::string::npos);
+  EXPECT_NE(refusal_of_text("subsection Mesh\n").find("not closed"), std::string::npos);
+  EXPECT_NE(refusal_of_text("subsection A\nsubsection B\nend\nend\n").find("inside"),
+            std::string::npos);
+  EXPECT_NE(refusal_of_text("subsection\nend\n").find("name"), std::string::npos);
+  EXPECT_NE(refusal_of_text("subsection A\nset B = 1\nset B = 2\nend\n").find("second time"),
             std::string::npos);
 }
 
@@ -60,12 +63,12 @@ TEST(Settings, RefuseFilesThatAreNotThere) {
 }
 
 TEST(Settings, RefuseWhatIsNoTextOrHasNoEnd) {
-  EXPECT_NE(refusal_of(std::string(1 << 20, '\n') + "end\n").find("1 MiB"), std::string::npos);
+  EXPECT_NE(refusal_of_text(std::string(1 << 20, '\n') + "end\n").find("1 MiB"), std::string::npos);
   EXPECT_THROW(read_settings("/dev/zero"), BadInput);
-  const std::string binary = refusal_of(std::string("\x7f"
-                                                    "ELF\0\x1b[2J",
-                                                    9) +
-                                        std::string(10000, '\x01'));
+  const std::string binary = refusal_of_text(std::string("\x7f"
+                                                         "ELF\0\x1b[2J",
+                                                         9) +
+                                             std::string(10000, '\x01'));
   EXPECT_LT(binary.size(), 1000u);
   EXPECT_EQ(binary.find_first_of(std::string("\x7f\0\x1b\x01", 4)), std::string::npos) << binary;
 }

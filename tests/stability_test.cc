@@ -17,12 +17,6 @@ using namespace rollwave;
 
 namespace {
 
-std::string assignment(const char* key, double value) {
-  char text[100];
-  std::snprintf(text, sizeof text, "%s=%.17g", key, value);
-  return text;
-}
-
 /// A scene with a force, all its lengths multiplied by @p scale.
 Result solve_scaled(double scale) {
   const Parameters parameters = parameters_of(

@@ -11,6 +11,12 @@
 
 namespace rollwave {
 
+/// All digits of @p value.
+std::string digits(double value);
+
+/// Such as "Road/Distance=0.80000000000000004".
+std::string assignment(const std::string& key, double value);
+
 /// Parameters from assignments like "Mesh/Degree=1".
 Parameters parameters_of(const std::vector<std::string>& assignments);
 
