@@ -44,7 +44,8 @@ public:
   /// What a field has for each row.
   std::vector<double> rows_of(const FieldVector& field) const;
 
-  /// The minimiser for a load, to 1e-8 of it where columns are cut.
+  /// The minimiser for a load; where columns are cut, to 1e-8 of it or what a hundred steps of
+  /// conjugate gradients come to. Any g gives a bound.
   FieldVector solve(const FieldVector& load) const;
 
   /// By how much the minimiser changes when its values in some last @p rows of columns are given a

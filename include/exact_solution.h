@@ -21,8 +21,9 @@ struct ExactScene {
  * pressure on |x| < w as a ContactPressureSeries of even terms, and the compliances c_k = 1/sigma_k
  * of RadialModes,
  *
- *     u(b, x) = u_f(b) - sum_k c_k lambda_k e^(i k x),   lambda_k = (1/2 pi) int lambda e^(-i k x)
- * dx, u_f(r)  = f ( -(r^2 - a^2)/4 + (b^2/2) ln(r/a) ),
+ *     u(b, x)  = u_f(b) - sum_k c_k lambda_k e^(i k x),
+ *     lambda_k = (1/2 pi) int lambda e^(-i k x) dx,
+ *     u_f(r)   = f ( -(r^2 - a^2)/4 + (b^2/2) ln(r/a) ),
  *
  * has to equal phi on |x| < w. This is tested by the n functions of the series itself, which gives
  * a symmetric positive definite system for its coefficients, and by the next one, which gives the
@@ -58,7 +59,7 @@ struct ExactSolution {
 /// @throws NotSolved when the series does not settle.
 ExactSolution solve_exactly(const ExactScene& scene);
 
-/// u_f(r), the displacement under a constant force density @p f without contact.
+/// u_f(r), the displacement under the constant force density f without contact.
 double contact_free_displacement(const ExactScene& scene, double r);
 
 } // namespace rollwave

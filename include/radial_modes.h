@@ -15,8 +15,9 @@ namespace rollwave {
  * omega r) and y = ln r, theta = dg/dy / g is a continued fraction; the second solution is g int dy
  * / g^2, so that with everything normalised at r = b
  *
- *     g(y) = exp(-int_y^(ln b) theta),   q(y) = int_(ln a)^y dy / g^2,   R_k(r)/R_k(b) = g
- * q(y)/q(ln b), sigma_k = R_k'(b) / R_k(b) = (theta(b) + 1/q(ln b)) / b.
+ *     g(y) = exp(-int_y^(ln b) theta),   q(y) = int_(ln a)^y dy / g^2,
+ *     R_k(r) / R_k(b) = g q(y) / q(ln b),
+ *     sigma_k = R_k'(b) / R_k(b) = (theta(b) + 1/q(ln b)) / b.
  *
  * Integrals over y are taken by spectral integration on Gauss-Legendre points.
  */

@@ -24,8 +24,8 @@ using SurfaceFunction = std::vector<SurfacePiece>;
 /// What errors are measured against: the solution u of a scene, known much better than the one in
 /// question.
 struct Reference {
-  std::string name;     ///< what it is, as in "against NAME"
-  double own_error = 0; ///< the certified one in the energy norm, 0 where it is exact
+  std::string name; ///< what it is, as in "against NAME"
+  double own_error; ///< in the energy norm: what is certified, or the floor that cancellation sets
   double force;
   double energy;
   double norm_squared;
@@ -53,9 +53,9 @@ Reference exact_reference(const ExactSolution& exact);
 /**
  * A discrete solution @p result on @p space with its certificate, by its contact forces N_i:
  * b int lambda w dz = sum_i N_i w(z_i), and a(u, u) = -2 (J(u) + b int lambda phi dz). Errors are
- * known to within its own error, about which @p name should tell. The work of a force that is no
- * number is that of the certificate's f_0 everywhere: what that leaves out of f then acts on errors
- * alone, not on the displacement.
+ * known to within its own, certified error, about which @p name should tell. The work of a force
+ * that is no number is that of the certificate's f_0 everywhere: what that leaves out of f then
+ * acts on errors alone, not on the displacement.
  */
 Reference discrete_reference(const Scene& scene, const RingSpace& space, const Result& result,
                              const Certificate& certificate, const std::string& name);

@@ -14,11 +14,16 @@ struct Scene;
 /// alpha, the force and the contact; for comparison only.
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
 
+/// Whether so many more cells fit that a further mesh is worth its solution: a fifth, with
+/// Marking::all three times as many as there are.
+bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking marking,
+                        double most_cells);
+
 /**
- * Refines the cells of @p triangulation by the indicators eta_K of its active cells, and shares the
- * cells among the processes anew. Bulk marking
- * is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum
- * eta_K^2 >= @p fraction of the whole.
+ * Refines the cells of @p triangulation by the indicators eta_K of its active cells, elements being
+ * of @p degree, and shares the cells among the processes anew. Bulk marking is that of W. Doerfler
+ * (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum eta_K^2 >= @p fraction of
+ * the whole.
  *
  * A cell whose indicator is far above that of the last one marked is cut more than once: where u is
  * smooth, elements of degree p leave eta_K^2 / 4^(p + 1) to each of the four parts, and a part that
@@ -34,11 +39,10 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
- * and at corners as well. Cells of level 29 are not cut:
- * CellId and p4est have no room beyond.
+ * and at corners as well. Cells of level 29 are not cut: CellId and p4est have no room beyond.
  *
- * @return false, the mesh being left as it is, when no cell is marked or too few fit to matter, and
- *         none is coarsened
+ * @return false, the mesh being left as it is, when no cell is marked or none fits, and none is
+ *         coarsened
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,

@@ -70,6 +70,7 @@ constexpr double wanted_residual = 1e-10;
 struct TrueErrors {
   double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
   double relative_energy_norm; ///< over that of u
+  bool is_resolved;            ///< whether the reference is good enough to tell energy norms
   double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
   double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
   double force;                ///< |F - F_h|
@@ -119,7 +120,7 @@ struct Result {
   std::vector<CycleFigures> cycles; ///< one for each mesh
   std::vector<ContactStep> history; ///< on the last mesh
   double rho;                       ///< Uzawa's step length; 0 for the active set method
-  std::string remark;
+  std::vector<std::string> remarks; ///< what a reader of the figures should know
   std::string shortfall; ///< what was wanted and not reached, with the key to change; mostly empty
   bool is_interrupted = false; ///< by the user: the shortfall says after what
   std::vector<ContactRow> contact_rows;

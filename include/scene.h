@@ -89,7 +89,7 @@ std::function<double(double)> flat_road_slope(double distance);
  *
  * Its unit of length is the power of two with b in [1, 2).
  *
- * @throws BadInput unless 0 < a < b, 0 <= omega <= 1/b, a < c < 2 b,
+ * @throws BadInput unless 0 < a < b, 0 <= omega <= 1/b, a < c, c < 2 b with an automatic zone,
  *         pi < z0 < z1 < 2 pi and the force can be parsed and is finite.
  */
 Scene make_scene(const Parameters& parameters);

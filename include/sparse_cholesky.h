@@ -27,8 +27,8 @@ struct LowerTriplets {
  * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. Of the last m
  * unknowns it gives the Schur complement S too:
  *
- *         ( L_ii       )                        T
- *     L = (            ),     S = L_cc   L_cc   = K_cc - K_ci K_ii^-1 K_ic.
+ *         ( L_ii       )
+ *     L = (            ),     S = L_cc L_cc^T = K_cc - K_ci K_ii^-1 K_ic.
  *         ( L_ci  L_cc )
  */
 class SparseCholesky {

@@ -20,6 +20,7 @@ struct StudyPlot {
   RunValue y;
   RunValue marks; ///< further values shown as open circles; may be empty
   bool log_x;
+  bool log_y;
   std::vector<double> slopes; ///< expected powers of x, drawn as dashed lines
 };
 

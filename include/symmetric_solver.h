@@ -23,7 +23,7 @@ public:
   /// Takes the sum of all cell matrices, those of int r (alpha d_z v d_z w + d_r v d_r w) dr dz or
   /// of the dual form, in which couplings are as strong. Later calls must have the same @p
   /// constraints but for their inhomogeneities.
-  /// @throws NotEnoughMemory
+  /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
   virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                           const EachCellMatrix& each, Work& work) = 0;
 

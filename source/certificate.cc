@@ -363,7 +363,9 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const double eta = of_flux + missed;
   const double energy_norm = epsilon + eta;
   const double energy = norm_squared / 2 - work_of_force;
-  const double round_off = 1e-15 * (norm_squared + std::abs(work_of_force));
+  // Heights and moments are differences of radii.
+  const double cancellation = scene.outer_radius / (scene.outer_radius - scene.inner_radius);
+  const double round_off = 1e-15 * cancellation * (norm_squared + std::abs(work_of_force));
   const double energy_error = (epsilon + missed) * std::sqrt(norm_squared) + round_off;
   const double smallest_norm = std::sqrt(norm_squared) - energy_norm;
   double relative = std::numeric_limits<double>::infinity();

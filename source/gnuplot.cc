@@ -43,11 +43,12 @@ private:
 
 Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
   const TemporaryFile file;
-  if (file.write("set terminal svg size " + std::to_string(width) + "," + std::to_string(height) +
-                 " font 'Helvetica,14' background rgb 'white' dynamic\n" + script))
+  if (file.write("set terminal svg noenhanced size " + std::to_string(width) + "," +
+                 std::to_string(height) + " font 'Helvetica,14' background rgb 'white' dynamic\n" +
+                 script))
     // An interrupt is for this program, which still wants the picture of what it has.
     pipe.reset(
-        popen(("trap '' INT TERM; exec gnuplot " + file.path() + " 2>/dev/null").c_str(), "r"));
+        popen(("trap '' INT TERM; exec gnuplot -d " + file.path() + " 2>/dev/null").c_str(), "r"));
   // A full pipe would hold gnuplot up; a file instead could be cut short where the disk is full,
   // which gnuplot does not tell.
   constexpr int most_without_privilege = 1 << 20;

@@ -158,7 +158,9 @@ void measure(const Scene& scene, const RingSpace& space, const MeshSolution& sol
   result.surface = tabulate_surface(space, displacement);
   result.history = contact.history;
   result.rho = contact.rho;
-  result.remark = contact.remark;
+  result.remarks.clear();
+  if (!contact.remark.empty())
+    result.remarks.push_back(contact.remark);
   result.shortfall = contact.shortfall;
   result.cycles.push_back({result.mesh.cells,
                            result.mesh.dofs,

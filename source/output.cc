@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <exception>
 #include <limits>
 #include <ostream>
 #include <regex>
@@ -89,6 +90,32 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
     work.bytes_written += write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
+  const auto write_field = [&] {
+    std::vector<std::string> pieces = {"solution.vtu"};
+    if (n_processes > 1)
+      for (pieces.clear(); pieces.size() < n_processes;)
+        pieces.push_back("solution." + std::to_string(pieces.size()) + ".vtu");
+    AtomicFile file(directory / pieces[process]);
+    // The format's numbers have single precision.
+    const bool fits = 1e-25 < b && b < 1e35;
+    write_solution_vtu(file.stream(), solution, fits ? scene.unit : 1 / scene.outer_radius);
+    if (!fits)
+      written.remarks.push_back("solution.vtu gives lengths over the outer radius, since they "
+                                "leave the range of single precision");
+    // No piece is moved to its place before all are on the disk.
+    work.bytes_written += Utilities::MPI::sum(file.finish(), communicator);
+    file.commit();
+    for (const std::string& piece : pieces)
+      written.files.push_back(directory / piece);
+    if (n_processes > 1) {
+      std::ostringstream record;
+      write_solution_pvtu(record, solution, pieces);
+      add("solution.pvtu", record.str());
+    }
+    if (process == 0)
+      remove_other_solutions(directory, written.files);
+  };
+  std::exception_ptr failure;
   {
     const Work::Phase phase(work, "output");
     std::vector<std::pair<std::string, Drawing>> drawings; // made while the files are written
@@ -104,46 +131,26 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
       write_parameters(text, parameters);
       add("parameters.prm", text.str());
     }
-    if (parameters.wants(OutputFile::solution)) {
-      std::vector<std::string> pieces = {"solution.vtu"};
-      if (n_processes > 1)
-        for (pieces.clear(); pieces.size() < n_processes;)
-          pieces.push_back("solution." + std::to_string(pieces.size()) + ".vtu");
-      AtomicFile file(directory / pieces[process]);
-      // The format's numbers have single precision.
-      const bool fits = 1e-25 < b && b < 1e35;
-      write_solution_vtu(file.stream(), solution, fits ? scene.unit : 1 / scene.outer_radius);
-      if (!fits)
-        written.remarks.push_back("solution.vtu gives lengths over the outer radius, since they "
-                                  "leave the range of single precision");
-      // No piece is moved to its place before all are on the disk.
-      work.bytes_written += Utilities::MPI::sum(file.finish(), communicator);
-      file.commit();
-      for (const std::string& piece : pieces)
-        written.files.push_back(directory / piece);
-      if (n_processes > 1) {
-        std::ostringstream record;
-        write_solution_pvtu(record, solution, pieces);
-        add("solution.pvtu", record.str());
+    if (parameters.wants(OutputFile::solution))
+      try {
+        write_field();
+      } catch (const NotWritten&) {
+        // The largest file by far: where it has no room, the others may.
+        if (n_processes > 1)
+          throw;
+        failure = std::current_exception();
       }
-      if (process == 0)
-        remove_other_solutions(directory, written.files);
-    }
     for (auto& [name, drawing] : drawings)
       if (const auto svg = drawing.take_svg())
         add(name, *svg);
       else
         written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
   }
-  const auto& ends = solution.result.patch.ends;
-  if (!parameters.road.contact_zone && ends &&
-      (ends->first == scene.zone_begin || ends->second == scene.zone_end))
-    written.remarks.push_back(
-        "contact reaches the end of the automatic zone, where phi = b; give a "
-        "wider Road/Contact zone if it may go on");
   solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary))
     add("summary.json", summary_json(scene, parameters, to_lengths(solution.result, scene.unit)));
+  if (failure)
+    std::rethrow_exception(failure);
   return written;
 }
 

@@ -53,7 +53,8 @@ std::vector<Parameters::NamedScene> parse_scenes(const std::string& text) {
     scenes.push_back({trimmed(part.substr(0, colon)), {}});
     for (const std::string& assignment : split(part.substr(colon + 1), '&')) {
       scenes.back().settings.push_back(parse_setting(assignment, "Study/Scenes"));
-      if (scenes.back().settings.back().section == "Study")
+      const std::string& section = scenes.back().settings.back().section;
+      if (section == "Study" || section == "Output")
         throw std::invalid_argument(text);
     }
   }
@@ -107,8 +108,8 @@ void declare(Declarations& keys, Parameters& p) {
 
   keys.enter("Road");
   keys.add_number("Distance", p.road.distance, tiny, huge,
-                  "Distance c of the flat road below the axle: a length, greater than a, less than "
-                  "2 b.");
+                  "Distance c of the flat road below the axle: a length, greater than a; less than "
+                  "2 b where the zone is auto.");
   keys.add(
       "Contact zone", "auto",
       [&p](const std::string& text) { p.road.contact_zone = parse_zone(text); },
@@ -155,7 +156,7 @@ void declare(Declarations& keys, Parameters& p) {
                   "The fraction that Marking speaks of, from 0.01 to 1.");
   keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
                  "A mesh with more unknowns than this number is refused; adaptive refinement ends "
-                 "where it would be exceeded.");
+                 "below it.");
   keys.leave();
 
   keys.enter("Certificate");

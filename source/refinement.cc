@@ -52,7 +52,7 @@ unsigned int count_flagged(const Triangulation<2>& triangulation) {
 void exchange_flags(Triangulation<2>& triangulation) {
   GridTools::exchange_cell_data_to_ghosts<int, Triangulation<2>>(
       triangulation,
-      [](const Cell& cell) -> std_cxx17::optional<int> {
+      [](const Cell& cell) -> std::optional<int> {
         return (cell->refine_flag_set() ? 1 : 0) + (cell->coarsen_flag_set() ? 2 : 0);
       },
       [](const Cell& cell, int flags) {
@@ -125,7 +125,7 @@ void exchange_values(const Triangulation<2>& triangulation, std::vector<double>&
     return;
   GridTools::exchange_cell_data_to_ghosts<double, Triangulation<2>>(
       triangulation,
-      [&](const Cell& cell) -> std_cxx17::optional<double> {
+      [&](const Cell& cell) -> std::optional<double> {
         return of_cells[cell->active_cell_index()];
       },
       [&](const Cell& cell, double value) { of_cells[cell->active_cell_index()] = value; });
@@ -227,8 +227,7 @@ double last_of_share(const std::vector<double>& values, const Weight& weight, do
 }
 
 /// Flags the cells with the largest values among those from @p last_marked on, so many that the
-/// mesh will have @p most_cells cells at most, or none when they would be too few to matter.
-/// Returns the value of the last.
+/// mesh will have @p most_cells cells at most. Returns the value of the last.
 double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
                            const Vector<double>& squares, double last_marked, double most_cells) {
   const MPI_Comm communicator = triangulation.get_communicator();
@@ -248,11 +247,8 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
         own, [](double) { return 1.; }, std::floor(n_marked), communicator);
     flag(triangulation, scene, squares, last_marked);
     prepare(triangulation);
-    if (n_cells_to_come(triangulation) <= most_cells) {
-      if (count_flagged(triangulation) < 0.003 * n_now)
-        clear_flags(triangulation);
+    if (n_cells_to_come(triangulation) <= most_cells)
       return last_marked;
-    }
   }
 }
 
@@ -365,6 +361,11 @@ bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
 }
 
 } // namespace
+
+bool has_room_to_refine(const Triangulation<2>& triangulation, Marking marking, double most_cells) {
+  const double least_growth = marking == Marking::all ? 4 : 1.2;
+  return least_growth * triangulation.n_global_active_cells() <= most_cells;
+}
 
 bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,

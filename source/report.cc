@@ -92,8 +92,8 @@ void report_result(std::ostream& out, const Result& result) {
     out << " by the active set method";
   out << '\n';
   report_history(out, result.history);
-  if (!result.remark.empty())
-    out << "Note: " << result.remark << '\n';
+  for (const std::string& remark : result.remarks)
+    out << "Note: " << remark << '\n';
 
   const ContactPatch& patch = result.patch;
   out << "\nResult\n" << std::setprecision(9);

@@ -140,8 +140,8 @@ Lengths lengths_of(const Rectangle& box, const Scene& scene) {
 using ResidualValues = std::array<NodeValues, most_nodes>;
 
 /// The mean over a cell of the square of a residual, its values at the points of @p rule in each
-/// direction, with the length of its direction for what varies in one
-/// direction only, and the lesser length for all else.
+/// direction, with the length of its direction for what varies in one direction only, and the
+/// lesser length for all else.
 template <typename Size>
 double weighted_square(Size n, const ResidualValues& residual, const QGauss<1>& rule,
                        const Lengths& length) {

@@ -46,11 +46,12 @@ std::vector<double> angles_of(const Scene& scene, const Parameters& parameters) 
     append_equal(angles, seam_angle, end, n);
     return angles;
   }
-  const auto share = [n](double arc, int least, int most) {
-    return std::clamp<int>(std::lround(n * arc / (2 * numbers::PI)), least, most);
-  };
-  const int n_zone = share(scene.zone_end - scene.zone_begin, 1, n - 2);
-  const int n_before = share(scene.zone_begin - seam_angle, 1, n - n_zone - 1);
+  const int n_zone = std::clamp<int>(
+      std::lround(n * (scene.zone_end - scene.zone_begin) / (2 * numbers::PI)), 1, n - 2);
+  // What is left is shared by both sides, so that mirrored zones have mirrored meshes.
+  const double before = scene.zone_begin - seam_angle, behind = end - scene.zone_end;
+  const int n_before =
+      std::clamp<int>(std::lround((n - n_zone) * before / (before + behind)), 1, n - n_zone - 1);
   append_equal(angles, seam_angle, scene.zone_begin, n_before);
   append_equal(angles, scene.zone_begin, scene.zone_end, n_zone);
   append_equal(angles, scene.zone_end, end, n - n_zone - n_before);

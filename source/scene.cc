@@ -43,7 +43,7 @@ namespace {
 template <typename... Parts>
 std::string text(const Parts&... parts) {
   std::ostringstream out;
-  out.precision(17);
+  out.precision(std::numeric_limits<double>::digits10);
   (out << ... << parts);
   return out.str();
 }

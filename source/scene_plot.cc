@@ -1,5 +1,6 @@
 #include "scene_plot.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -11,19 +12,22 @@ Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Resul
   std::ostringstream script;
   script.precision(9);
   script << "$surface << EOD\n";
-  for (const SurfacePoint& point : result.surface) {
-    const double r = 1 + point.displacement / b;
+  double largest_radius = 1.25;
+  const auto add_point = [&](const SurfacePoint& point) {
+    const double r = std::max(0., 1 + point.displacement / b); // not through the axle
     script << r * std::cos(point.angle) << ' ' << r * std::sin(point.angle) << '\n';
-  }
-  const SurfacePoint& first = result.surface.front();
-  const double r = 1 + first.displacement / b;
-  script << r * std::cos(first.angle) << ' ' << r * std::sin(first.angle) << "\nEOD\n";
+    largest_radius = std::max(largest_radius, r);
+  };
+  for (const SurfacePoint& point : result.surface)
+    add_point(point);
+  add_point(result.surface.front());
+  script << "EOD\n";
   script << "$pressure << EOD\n";
   for (const ContactRow& row : result.contact_rows)
     script << row.angle << ' ' << row.pressure << '\n';
   script << "EOD\n";
 
-  script << "a = " << scene.inner_radius / b
+  script << "a = " << scene.inner_radius / b << "\nhalf = " << 1.08 * largest_radius
          << "\nc = " << parameters.road.distance / parameters.cylinder.outer_radius << '\n'
          << R"(
 set multiplot
@@ -32,18 +36,18 @@ set parametric
 set trange [0:2*pi]
 set size ratio -1 1,0.68
 set origin 0,0.32
-set xrange [-1.35:1.35]
-set yrange [-1.25:1.15]
+set xrange [-half:half]
+set yrange [-half+0.1:half-0.2]
 set xlabel 'x / b'
 set ylabel 'y / b'
 set key outside right top
-set object 1 rectangle from -1.35,-1.25 to 1.35,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
+set object 1 rectangle from -half,-half+0.1 to half,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
 plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
      cos(t),sin(t) with lines linewidth 1 dashtype 2 linecolor rgb '#808080' title 'undeformed', \
      '$surface' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'deformed', \
      a*cos(t),a*sin(t) with filledcurves closed fillcolor rgb '#ffffff' notitle, \
      a*cos(t),a*sin(t) with lines linewidth 2 linecolor rgb '#404040' title 'hub', \
-     1.35*(t/pi-1),-c with lines linewidth 2 linecolor rgb '#7a5c2e' title 'road'
+     half*(t/pi-1),-c with lines linewidth 2 linecolor rgb '#7a5c2e' title 'road'
 unset parametric
 unset object 1
 set size noratio

@@ -8,6 +8,7 @@
 #include "mesh_solution.h"
 #include "processes.h"
 #include "refinement.h"
+#include "remarks.h"
 #include "residual_indicator.h"
 #include "ring_mesh.h"
 #include "task_beside.h"
@@ -144,15 +145,19 @@ std::vector<double> larger_of(std::vector<double> indicators, const Certificate&
   return indicators;
 }
 
+double most_cells(const Parameters& parameters) {
+  const auto& mesh = parameters.mesh;
+  return mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
+}
+
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
 /// nothing is changed, when the mesh would get too large or no cell is marked.
 bool refine(const Scene& scene, const std::vector<double>& indicators, const Parameters& parameters,
             bool coarsens, Solution& solution) {
   const Work::Phase phase(solution.result.work, "mesh");
   const auto& mesh = parameters.mesh;
-  const double most_cells = mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
   if (!refine_mesh(*solution.triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
-                   mesh.degree, most_cells, coarsens))
+                   mesh.degree, most_cells(parameters), coarsens))
     return false;
   solution.certificate.reset();
   solution.system = {};
@@ -250,7 +255,10 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     }
     if (cycle == 0 && is_interrupted(communicator))
       throw Interrupted("interrupted before the first mesh was solved");
-    const bool is_last = cycle == most_cycles(parameters);
+    const bool may_coarsen = continues && cycle == 0;
+    const bool is_last = cycle == most_cycles(parameters) ||
+                         (!may_coarsen && !has_room_to_refine(*solution.triangulation, mesh.marking,
+                                                              most_cells(parameters)));
     const bool is_used_again = keep == Keep::everything ||
                                (parameters.certificate.load_bounds && most_cycles(parameters) == 0);
     // Its threads gain nothing there, and take the cores from others while they wait for more.
@@ -284,7 +292,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
       if (refine(scene,
                  solution.certificate && !is_baseline ? larger_of(indicators, *solution.certificate)
                                                       : indicators,
-                 parameters, continues && cycle == 0, solution)) {
+                 parameters, may_coarsen, solution)) {
         double squared = 0;
         for (const double eta : indicators)
           squared += eta * eta;
@@ -307,6 +315,8 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
         add_text(result.shortfall, left_out_text("the load could not be enclosed", failure,
                                                  "Certificate/Load bounds"));
       }
+    for (const std::string& remark : remarks_on(scene, parameters, result))
+      result.remarks.push_back(remark);
     if (keep == Keep::nothing)
       solution.system = {};
     solution.displacement = std::move(on_mesh.displacement);
@@ -351,8 +361,12 @@ Solution run(const Scene& scene, const Parameters& parameters, MPI_Comm communic
     try {
       before = run(scene, coarser(parameters), communicator, {}, Keep::nothing).result;
       solution.result.work = before.work;
+    } catch (const Interrupted&) {
+      throw;
     } catch (const BadInput&) {
       // Too coarse for this scene, such as for a short zone: then without a start.
+    } catch (const NotSolved&) {
+      // Likewise.
     }
   if (!solution.triangulation) {
     const Work::Phase phase(solution.result.work, "mesh");

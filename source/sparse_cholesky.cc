@@ -58,13 +58,13 @@ struct SparseCholesky::Cholmod {
   void check(const std::string& step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
       throw NotEnoughMemory("the " + step +
-                            " of the stiffness matrix needs more memory than there is");
+                            " of the system matrix needs more memory than there is");
     if (common.status == CHOLMOD_NOT_POSDEF)
-      throw NotSolved("the stiffness matrix is not positive definite in floating-point arithmetic "
+      throw NotSolved("the system matrix is not positive definite in floating-point arithmetic "
                       "(" +
                       step + "); use cells that are less stretched");
     if (common.status < 0)
-      throw NotSolved("the " + step + " of the stiffness matrix failed in CHOLMOD, status " +
+      throw NotSolved("the " + step + " of the system matrix failed in CHOLMOD, status " +
                       std::to_string(common.status));
   }
 

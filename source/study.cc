@@ -44,17 +44,21 @@ std::string read_text(const std::filesystem::path& file) {
 }
 
 /// The study.csv of an earlier call of this study, empty when there is none; otherwise makes the
-/// directory that of this study.
-std::string claim_directory(const Parameters& parameters, const std::filesystem::path& directory) {
+/// directory that of this study, and keeps the table of another one aside.
+std::string claim_directory(const Parameters& parameters, const std::filesystem::path& directory,
+                            std::ostream& progress) {
   const std::string own = parameters_text(parameters);
   if (own == read_text(directory / "parameters.prm"))
     return read_text(directory / "study.csv");
   // In this order: rows beside the parameters of another study would be taken for its own.
+  const auto table = directory / "study.csv", kept = directory / "study-before.csv";
   std::error_code error;
-  std::filesystem::remove(directory / "study.csv", error);
+  if (std::filesystem::exists(table, error)) {
+    std::filesystem::rename(table, kept, error);
+    progress << "Note: study.csv is of other parameters, and kept as study-before.csv\n";
+  }
   if (error)
-    throw NotWritten((directory / "study.csv").string() +
-                     " could not be removed: " + error.message());
+    throw NotWritten(table.string() + " could not be moved: " + error.message());
   write_file(directory / "parameters.prm", own);
   return {};
 }
@@ -234,8 +238,8 @@ Study run_study(const Parameters& parameters, const std::filesystem::path& direc
   }
 
   const bool is_first = process_number(communicator) == 0;
-  const std::string earlier =
-      share_text(communicator, is_first ? claim_directory(parameters, directory) : std::string());
+  const std::string earlier = share_text(
+      communicator, is_first ? claim_directory(parameters, directory, progress) : std::string());
   Rows rows(parameters, plans, directory, progress, is_first);
   for (StudyRun& run : runs_to_keep(read_study_csv(earlier), plans)) {
     rows.announce("  (done before)");

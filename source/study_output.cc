@@ -33,11 +33,23 @@ bool has_certificate(const StudyRun& run) {
 bool has_linear_iterations(const StudyRun& run) {
   return run.figure("linear_iterations").value_or(0) > 0;
 }
+bool has_failure(const StudyRun& run) {
+  return !run.failure.empty();
+}
 bool has_scene(const StudyRun& run) {
   return !run.scene.empty();
 }
 bool has_errors(const StudyRun& run) {
   return run.figure("error_relative").has_value();
+}
+
+/// The scene and what was varied, as text.
+std::string name_of(const StudyRun& run) {
+  const std::string curve = run.curve();
+  if (run.settings.empty())
+    return curve;
+  const Setting& last = run.settings.back();
+  return curve + (curve.empty() ? "" : ", ") + last.key + " " + last.value;
 }
 
 std::string text_of(double value, int digits) {
@@ -67,6 +79,9 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
   const bool with_errors = any(runs, has_errors);
   const bool with_scenes = any(runs, has_scene);
   const bool with_published = any(runs, has_published_steps);
+  const bool with_iterations = any(runs, has_linear_iterations);
+  const bool with_certificate = any(runs, has_certificate);
+  const bool with_outcome = with_scenes || any(runs, has_failure);
   for (unsigned int i = 0; i < runs.size(); ++i) {
     const StudyRun& run = runs[i];
     if (with_scenes)
@@ -78,7 +93,7 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
     };
     add("unknowns", "dofs", 9);
     add("steps", "contact_steps", 9);
-    if (any(runs, has_linear_iterations))
+    if (with_iterations)
       add("linear iterations", "linear_iterations", 9);
     if (with_published)
       table.add_value("published",
@@ -105,7 +120,7 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
       add("J", "energy", 9);
       add("half-width", "half_width", 9);
     }
-    if (any(runs, has_certificate)) {
+    if (with_certificate) {
       add("certified", "certified_relative", 3);
       if (with_errors) {
         add("effectivity", "effectivity", 3);
@@ -115,8 +130,9 @@ TableHandler make_table(const std::vector<StudyRun>& runs) {
     if (with_scenes) {
       add("residual", "residual", 2);
       add("round-off", "round_off", 2);
-      table.add_value("outcome", std::string(run.failure.empty() ? "solved" : "not solved"));
     }
+    if (with_outcome)
+      table.add_value("outcome", std::string(run.failure.empty() ? "solved" : "not solved"));
     add("seconds", "seconds", 3);
   }
   return table;
@@ -205,8 +221,8 @@ void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
            "feasible displacement.\n";
   print_table(out, make_table(runs));
   for (const StudyRun& run : runs)
-    if (!run.failure.empty() && !run.scene.empty())
-      out << "Not solved, " << run.scene << ": " << run.failure << '\n';
+    if (has_failure(run))
+      out << "Not solved, " << name_of(run) << ": " << run.failure << '\n';
   print_orders(out, runs);
 }
 
@@ -224,7 +240,8 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
   add("study.txt", table.str());
   make_table(in_tex(runs)).write_tex(tex, /*with_header=*/false);
   add("study.tex", tex.str());
-  if (!parameters.wants(OutputFile::plot))
+  const auto is_solved = [](const StudyRun& run) { return run.is_solved(); };
+  if (!parameters.wants(OutputFile::plot) || std::none_of(runs.begin(), runs.end(), is_solved))
     return written;
 
   const auto add_plot = [&](const std::string& name, const StudyPlot& plot) {
@@ -243,14 +260,18 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     return run.settings.empty() ? std::nullopt : number_of(run.settings.back().value);
   };
   const RunValue steps = figure("contact_steps");
-  if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return varied(run); }))
-    add_plot("study.svg", {runs.front().settings.back().path(),
-                           "contact steps",
+  if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return varied(run); })) {
+    const Setting& last = runs.front().settings.back();
+    const bool is_of_scenes = last.section == "Cylinder" || last.section == "Road";
+    add_plot("study.svg", {last.path(),
+                           is_of_scenes ? "contact force F" : "contact steps",
                            varied,
-                           steps,
+                           is_of_scenes ? figure("force") : steps,
                            any(runs, has_published_steps) ? published : RunValue(),
                            false,
+                           !is_of_scenes,
                            {}});
+  }
 
   if (any(runs, has_errors)) {
     const RunValue error = figure("error_relative");
@@ -263,14 +284,20 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     std::vector<double> over_h(orders.begin(), orders.end()), over_unknowns;
     for (const double order : orders)
       over_unknowns.push_back(-order / 2);
-    add_plot("study-h.svg", {"h", label, figure("h_max"), error, {}, true, over_h});
-    add_plot("study-unknowns.svg", {"unknowns", label, unknowns, error, {}, true, over_unknowns});
-    add_plot("study-time.svg", {"seconds", label, figure("seconds"), error, {}, true, {}});
-    add_plot("study-steps.svg", {"unknowns", "contact steps", unknowns, steps, {}, true, {}});
+    add_plot("study-h.svg", {"h", label, figure("h_max"), error, {}, true, true, over_h});
+    add_plot("study-unknowns.svg",
+             {"unknowns", label, unknowns, error, {}, true, true, over_unknowns});
+    add_plot("study-time.svg", {"seconds", label, figure("seconds"), error, {}, true, true, {}});
+    add_plot("study-steps.svg", {"unknowns", "contact steps", unknowns, steps, {}, true, true, {}});
     if (any(runs, has_linear_iterations))
-      add_plot(
-          "study-iterations.svg",
-          {"unknowns", "linear iterations", unknowns, figure("linear_iterations"), {}, true, {}});
+      add_plot("study-iterations.svg", {"unknowns",
+                                        "linear iterations",
+                                        unknowns,
+                                        figure("linear_iterations"),
+                                        {},
+                                        true,
+                                        true,
+                                        {}});
   }
   return written;
 }

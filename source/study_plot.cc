@@ -46,7 +46,8 @@ Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
     script << number_or_nan(x) << ' ' << number_or_nan(y) << ' '
            << number_or_nan(plot.marks ? plot.marks(run) : std::nullopt) << '\n';
   }
-  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key below\nset logscale y\n"
+  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key below height 1\n"
+         << (plot.log_y ? "set logscale y\n" : "")
          << (plot.log_x ? "set logscale x\nset format x '%.0e'\n" : "") << "set format y '%g'\n"
          << "set offsets graph 0.03, graph 0.03, 0, 0\nset xlabel '" << plot.x_label
          << "'\nset ylabel '" << plot.y_label << "'\nplot ";
@@ -59,10 +60,12 @@ Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
              << " pointtype 6 pointsize 1.4 linewidth 2 title '" << text_for_gnuplot(curves[i])
              << " published'";
   }
-  for (const double slope : plot.slopes)
-    script << ", [" << x_low << ':' << x_high << "] " << y_high << " * (x / "
-           << (slope < 0 ? x_low : x_high) << ")**(" << slope
-           << ") with lines dashtype 2 linecolor rgb '#808080' title 'slope " << slope << "'";
+  // Beside the curves, which begin where they are highest.
+  for (unsigned int i = 0; i < plot.slopes.size(); ++i)
+    script << ", [" << x_low << ':' << x_high << "] " << y_high / 2 << " * (x / "
+           << (plot.slopes[i] < 0 ? x_low : x_high) << ")**(" << plot.slopes[i]
+           << ") with lines dashtype " << i + 2 << " linecolor rgb '#808080' title 'slope "
+           << plot.slopes[i] << "'";
   script << '\n';
   return Drawing(script.str(), 760, 560);
 }

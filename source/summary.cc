@@ -52,15 +52,18 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   }
   if (result.errors) {
     Json& error = json["error"];
-    error["exact_energy_norm"] = result.errors->energy_norm;
-    error["exact_relative"] = result.errors->relative_energy_norm;
+    if (result.errors->is_resolved) {
+      error["exact_energy_norm"] = result.errors->energy_norm;
+      error["exact_relative"] = result.errors->relative_energy_norm;
+    }
     error["exact_l2_norm"] = result.errors->l2_norm;
     error["exact_pressure"] = result.errors->pressure;
     error["exact_force"] = result.errors->force;
     error["exact_energy"] = result.errors->energy;
     error["exact_half_width"] = result.errors->half_width;
     if (result.errors->feasible_energy_norm) {
-      error["exact_feasible_energy_norm"] = *result.errors->feasible_energy_norm;
+      if (result.errors->is_resolved)
+        error["exact_feasible_energy_norm"] = *result.errors->feasible_energy_norm;
       if (result.errors->effectivity)
         error["effectivity"] = *result.errors->effectivity;
     }
@@ -86,8 +89,8 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                         {"linear", result.work.linear_iterations}};
   if (is_uzawa)
     json["iterations"]["rho"] = result.rho;
-  if (!result.remark.empty())
-    json["iterations"]["remark"] = result.remark;
+  if (!result.remarks.empty())
+    json["remarks"] = result.remarks;
 
   const Work& work = result.work;
   json["work"] = {{"load_assemblies", work.load_assemblies},

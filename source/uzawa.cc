@@ -157,7 +157,7 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
   message << "Uzawa's method has not reached the tolerance " << settings.tolerance << " after "
           << settings.most_steps << " steps with rho = " << rho / problem.unit
           << ": the residual is " << solution.history.back().residual
-          << "; raise Contact/Rho or Contact/Most steps";
+          << "; raise Contact/Most steps" << (settings.rho ? ", or let Contact/Rho be auto" : "");
   throw NotSolved(message.str());
 }
 

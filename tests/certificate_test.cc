@@ -153,6 +153,31 @@ TEST(Certificate, HoldsForHigherDegrees) {
     }
 }
 
+// J of the contact-free solution lies between bounds that are round-off apart, in rings where that
+// is large beside the difference of the radii: J = -pi int_a^b G^2 / r dr with G = (b^2 - r^2)/2.
+TEST(Certificate, HoldsToRoundOffInThinRings) {
+  for (const double thickness : {1e-2, 1e-4, 1e-6, 1e-8})
+    for (const char* degree : {"1", "2", "4", "8"}) {
+      const Parameters parameters =
+          parameters_of({assignment("Cylinder/Inner radius", 1 - thickness), "Road/Distance=1.5",
+                         "Cylinder/Radial force=-1", "Mesh/Radial cells=4", "Mesh/Angular cells=20",
+                         std::string("Mesh/Degree=") + degree});
+      const CertifiedError certified =
+          simulate(make_scene(parameters), parameters).result.certified.value();
+      // By the depth t = b - r, which has all its digits.
+      const double d = 1 - parameters.cylinder.inner_radius;
+      const dealii::QGauss<1> gauss(10);
+      double energy = 0;
+      for (unsigned int q = 0; q < gauss.size(); ++q) {
+        const double t = d * gauss.point(q)[0], moment = t * (2 - t) / 2;
+        energy -= PI * d * gauss.weight(q) * moment * moment / (1 - t);
+      }
+      SCOPED_TRACE(digits(thickness) + " Q" + degree);
+      EXPECT_LE(certified.lower_bound, energy * (1 - 1e-15));
+      EXPECT_GE(certified.upper_bound, energy * (1 + 1e-15));
+    }
+}
+
 // Contact that ends freely, that the zone cuts short on one side, and in a thin ring.
 TEST(EdgePressures, CarryTheContactForce) {
   const std::vector<std::vector<std::string>> scenes = {

@@ -221,6 +221,22 @@ TEST(TrueErrors, AreBelowTheirBoundsWhateverTheForce) {
       }
 }
 
+// Where cancellation, or an exact pressure that is not resolved, is more than the error.
+TEST(TrueErrors, AreNotToldWhereTheReferenceIsNoBetter) {
+  const auto resolves = [](const std::vector<std::string>& settings) {
+    const Parameters parameters = parameters_of(settings);
+    const auto exact = find_exact_solution(make_scene(parameters), parameters);
+    return exact && errors_of(parameters, *exact).is_resolved;
+  };
+  EXPECT_TRUE(resolves({"Mesh/Degree=2", "Mesh/Radial cells=4", "Mesh/Angular cells=60"}));
+  EXPECT_FALSE(resolves({"Road/Distance=1.2", "Cylinder/Radial force=-1", "Mesh/Degree=6",
+                         "Mesh/Radial cells=8", "Mesh/Angular cells=20"}));
+  EXPECT_FALSE(resolves({"Cylinder/Inner radius=0.001", "Cylinder/Angular velocity=0.95",
+                         "Cylinder/Radial force=1", "Road/Distance=0.0010999", "Mesh/Degree=2",
+                         "Mesh/Radial cells=4", "Mesh/Angular cells=120",
+                         "Mesh/Wanted relative error=0.005"}));
+}
+
 TEST(FindExactSolution, KnowsItsLimits) {
   const auto find = [](const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_of(assignments);

@@ -1,0 +1,85 @@
+#include "program.h"
+
+#include "errors.h"
+#include "memory.h"
+#include "output.h"
+#include "parameters.h"
+#include "report.h"
+#include "simulation.h"
+#include "study.h"
+#include "study_output.h"
+#include "true_errors.h"
+#include "verification.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <ostream>
+
+namespace rollwave {
+
+namespace {
+
+void make_study(const Parameters& parameters, const std::filesystem::path& directory,
+                const Processes& processes, std::ostream& out) {
+  const Study study = run_study(parameters, directory, out, processes.communicator());
+  if (processes.is_first()) {
+    out << '\n';
+    print_study(out, study.runs);
+    report_files(out, write_study(directory, parameters, study.runs));
+  }
+  processes.wait_for_first();
+  if (!study.shortfall.empty())
+    throw NotSolved(study.shortfall);
+  if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
+                                           [](const StudyRun& run) { return run.is_solved(); }))
+    throw NotSolved("no run of the study was solved; the first: " + study.runs.front().failure);
+}
+
+/// Adds the errors to the result, where the exact solution is known.
+void verify(const Scene& scene, const Parameters& parameters, Solution& solution,
+            std::ostream& out) {
+  if (const auto exact = find_exact_solution(scene, parameters)) {
+    solution.result.errors =
+        measure_true_errors(*solution.space, solution.displacement, solution.result,
+                            solution.certificate, exact_reference(*exact));
+    report_verification(out, scene, solution.result, *exact);
+  } else
+    out << "\nNo exact solution is known for this scene: its force is not constant, its "
+           "zone cuts the contact short unevenly, or the contact is too long beside the "
+           "thickness of the ring.\n";
+}
+
+void solve_scene(const Scene& scene, const Parameters& parameters,
+                 const std::filesystem::path& directory, const Processes& processes, bool verifies,
+                 std::ostream& out) {
+  Solution solution = simulate(scene, parameters, processes.communicator());
+  report_result(out, to_lengths(solution.result, scene.unit));
+  if (verifies)
+    verify(scene, parameters, solution, out);
+  const WrittenFiles written = write_results(directory, scene, parameters, solution);
+  report_end(out, solution.result.work, written);
+  processes.wait_for_first();
+  if (!solution.result.shortfall.empty())
+    throw NotSolved(solution.result.shortfall);
+}
+
+} // namespace
+
+void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
+  const MPI_Comm communicator = processes.communicator();
+  reserve_blas_memory();
+  const Parameters parameters = read_parameters(settings_of(line));
+  const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
+  if (is_study && line.verify)
+    throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
+  const Scene scene = make_scene(parameters);
+  const auto directory = prepare_directory(parameters, communicator);
+
+  report_scene(out, scene, parameters);
+  if (is_study)
+    make_study(parameters, directory, processes, out);
+  else
+    solve_scene(scene, parameters, directory, processes, line.verify, out);
+}
+
+} // namespace rollwave
