@@ -61,8 +61,6 @@ private:
                       const dealii::AffineConstraints<double>& constraints) const;
 
   const RingSpace& space;
-  const dealii::FE_Q<2>& element;
-  const std::vector<unsigned int> numbering; ///< of a cell, the radial index running fastest
   const ShapeProducts reference;
   std::optional<double> angular_velocity; ///< of the scene that the matrix belongs to
   std::unique_ptr<SymmetricSolver> solver;

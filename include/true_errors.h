@@ -16,8 +16,8 @@ namespace rollwave {
  *
  * Cancellation sets a floor of about 5e-6 to the relative error (1e-5 where the zone cuts the
  * contact short and the exact pressure is singular), and an exact pressure that is not resolved may
- * set a higher one, which shows where a(u - v, u - v) > 2 (J(v) - J(u)). The pressure is compared
- * at the nodes by the rule [.,.]_h, nodes at which it is singular left out.
+ * set a higher one, which shows where a(u - v, u - v) is clearly more than 2 (J(v) - J(u)). The
+ * pressure is compared at the nodes by the rule [.,.]_h, nodes at which it is singular left out.
  *
  * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
  *

@@ -1,6 +1,7 @@
 #include "angular_bubbles.h"
 
 #include "bubble_columns.h"
+#include "lexicographic_dofs.h"
 #include "scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -54,11 +55,9 @@ std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
                                   const std::vector<EdgePressure>& pressures,
                                   const std::vector<double>* force_load,
                                   const BubbleColumns& columns) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const unsigned int degree = element.degree, n = degree + 1;
+  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
   const AngularIntegrals integrals(degree);
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  std::vector<types::global_dof_index> dofs(n * n);
+  LexicographicDofs dofs(space.dof_handler());
   std::vector<double> psi_bubble(n);
   std::vector<double> load_of_row(columns.form.size());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -68,11 +67,11 @@ std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
     const double length = high[1] - low[1];
     const RadialShapes& radial = shapes.on(low[0], high[0]);
     double* const load = &load_of_row[columns.first_rows[cell->active_cell_index()]];
-    cell->get_dof_indices(dofs);
+    const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < n; ++i) {
       psi_bubble[i] = 0;
       for (unsigned int j = 0; j < n; ++j)
-        psi_bubble[i] += integrals.bubble_of[j] * potential(dofs[numbering[i + n * j]]);
+        psi_bubble[i] += integrals.bubble_of[j] * potential(of_cell[i + n * j]);
     }
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)

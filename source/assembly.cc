@@ -2,6 +2,7 @@
 
 #include "errors.h"
 #include "interval_map.h"
+#include "lexicographic_dofs.h"
 #include "processes.h"
 #include "radial_rule.h"
 #include "scene.h"
@@ -49,13 +50,12 @@ ShapeProducts radial_products(const Scene& scene,
 } // namespace
 
 void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
+  const auto& element = space.dof_handler().get_fe();
   const auto shapes = lobatto_lagrange(element.degree);
   const ShapeProducts reference = reference_products(element.degree);
   IntervalMap<ShapeProducts> known;
   FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell()), ordered(dofs.size());
+  LexicographicDofs dofs(space.dof_handler());
 
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -64,10 +64,7 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
     const ShapeProducts& radial =
         known.at(low[0], high[0], [&] { return radial_products(scene, shapes, low[0], high[0]); });
     tensor_matrix(radial, reference, high[1] - low[1], cell_matrix);
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      ordered[i] = dofs[numbering[i]];
-    add(ordered, cell_matrix);
+    add(dofs.of(cell), cell_matrix);
   }
 }
 

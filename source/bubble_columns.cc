@@ -1,6 +1,7 @@
 #include "bubble_columns.h"
 
 #include "angular_bubbles.h"
+#include "lexicographic_dofs.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -46,12 +47,10 @@ unsigned int bubble_carrier(unsigned int i, unsigned int n) {
 BubbleColumns::BubbleColumns(const RingSpace& space, RadialShapesOfMesh& shapes)
     : form(space, space.dof_handler().get_fe().degree),
       first_rows(space.dof_handler().get_triangulation().n_active_cells()) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  const unsigned int n = element.degree + 1;
-  const double square = bubble_square(element.degree);
+  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
+  const double square = bubble_square(degree);
   const FieldVector field = space.make_field();
-  std::vector<types::global_dof_index> dofs(n * n);
+  LexicographicDofs dofs(space.dof_handler());
   std::vector<unsigned int> places(n);
   for (Cell cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned() || has_own_neighbour(cell, 0))
@@ -60,9 +59,9 @@ BubbleColumns::BubbleColumns(const RingSpace& space, RadialShapesOfMesh& shapes)
     const bool is_fixed_below = !cell->at_boundary(0) && !is_cut_below;
     const unsigned int first_row = form.size();
     for (bool is_first = true;; is_first = false) {
-      cell->get_dof_indices(dofs);
+      const auto& of_cell = dofs.of(cell);
       for (unsigned int i = 0; i < n; ++i)
-        places[i] = field.get_partitioner()->global_to_local(dofs[numbering[bubble_carrier(i, n)]]);
+        places[i] = field.get_partitioner()->global_to_local(of_cell[bubble_carrier(i, n)]);
       if (is_first)
         form.begin_column(places[0]);
       const Point<2> low = cell->vertex(0), high = cell->vertex(3);

@@ -6,6 +6,7 @@
 #include "edge_pressure.h"
 #include "force_columns.h"
 #include "interval_map.h"
+#include "lexicographic_dofs.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "potential_kinks.h"
@@ -87,12 +88,9 @@ public:
              const AngularBubbles& bubbles, RadialShapesOfMesh& shapes, ForceColumns* columns,
              const ForceJumps& jumps)
       : displacement(displacement), potential(potential), bubbles(bubbles), shapes(shapes),
-        columns(columns), jumps(jumps),
-        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
-        numbering(element.get_poly_space_numbering_inverse()), n(element.degree + 1),
-        lagrange(lobatto_lagrange(element.degree)),
-        beta(AngularBubbles::mode(element.degree).primitive()), dofs(n * n), ordered(n * n),
-        u(n * n), psi(n * n), g(n) {
+        columns(columns), jumps(jumps), n(space.dof_handler().get_fe().degree + 1),
+        lagrange(lobatto_lagrange(n - 1)), beta(AngularBubbles::mode(n - 1).primitive()),
+        dofs(space.dof_handler()), u(n * n), psi(n * n), g(n) {
     const Polynomials::Legendre highest(n);
     const QGauss<1> gauss(n + 1);
     for (unsigned int q = 0; q < gauss.size(); ++q) {
@@ -108,13 +106,12 @@ public:
     per_length = 1 / length;
     per_height = 1 / (high[0] - low[0]);
     radial = &shapes.on(low[0], high[0]);
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
-      ordered[i] = dofs[numbering[i]];
-      u[i] = displacement(ordered[i]);
-      psi[i] = potential(ordered[i]);
+    const auto& of_cell = dofs.of(cell);
+    for (unsigned int i = 0; i < of_cell.size(); ++i) {
+      u[i] = displacement(of_cell[i]);
+      psi[i] = potential(of_cell[i]);
     }
-    bubbles.values(ordered, g);
+    bubbles.values(of_cell, g);
     if (!columns)
       return;
     if (columns->has_equal_lines())
@@ -233,15 +230,13 @@ private:
   RadialShapesOfMesh& shapes;
   ForceColumns* columns;
   const ForceJumps& jumps;
-  const FE_Q<2>& element;
-  const std::vector<unsigned int> numbering;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const Polynomials::Polynomial<double> beta;
   double unseen_share = 0; ///< int beta L dt, L the orthonormal Legendre polynomial of degree + 1
-  std::vector<types::global_dof_index> dofs, ordered; ///< the radial index running fastest
-  std::vector<double> u, psi;                         ///< values at the ordered ones
-  std::vector<double> g;                              ///< of the bubbles
+  LexicographicDofs dofs;
+  std::vector<double> u, psi; ///< values at those of the cell
+  std::vector<double> g;      ///< of the bubbles
   Point<2> low, high;
   double length = 0, per_length = 0, per_height = 0; ///< in z and in r
   const RadialShapes* radial = nullptr;

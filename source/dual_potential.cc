@@ -1,6 +1,7 @@
 #include "dual_potential.h"
 
 #include "edge_constraints.h"
+#include "lexicographic_dofs.h"
 #include "potential_kinks.h"
 #include "potential_shapes.h"
 #include "scene.h"
@@ -81,9 +82,8 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
 }
 
 DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
-    : space(space), element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
-      numbering(element.get_poly_space_numbering_inverse()),
-      reference(reference_products(element.degree)), solver(make_symmetric_solver(kind, space)) {}
+    : space(space), reference(reference_products(space.dof_handler().get_fe().degree)),
+      solver(make_symmetric_solver(kind, space)) {}
 
 FieldVector DualPotential::solve(RadialShapesOfMesh& shapes,
                                  const AffineConstraints<double>& constraints,
@@ -107,8 +107,8 @@ void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
   solver->set_matrix(
       scene, constraints,
       [&](const AddCellMatrix& add) {
-        FullMatrix<double> cell_matrix(numbering.size());
-        std::vector<types::global_dof_index> dofs(numbering.size()), ordered(numbering.size());
+        FullMatrix<double> cell_matrix(space.dof_handler().get_fe().n_dofs_per_cell());
+        LexicographicDofs dofs(space.dof_handler());
         for (const auto& cell : space.dof_handler().active_cell_iterators()) {
           if (!cell->is_locally_owned())
             continue;
@@ -116,10 +116,7 @@ void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
           const Point<2> low = cell->vertex(0), high = cell->vertex(3);
           tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1],
                         cell_matrix);
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            ordered[i] = dofs[numbering[i]];
-          add(ordered, cell_matrix);
+          add(dofs.of(cell), cell_matrix);
         }
       },
       work);
@@ -128,26 +125,24 @@ void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
 
 FieldVector DualPotential::load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
                                    const AffineConstraints<double>& constraints) const {
-  const unsigned int n = element.degree + 1;
-  FullMatrix<double> cell_matrix(n * n);
-  std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
-  Vector<double> cell_vector(n * n), cell_lift(n * n);
+  const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
+  FullMatrix<double> cell_matrix(n);
+  LexicographicDofs dofs(space.dof_handler());
+  Vector<double> cell_vector(n), cell_lift(n);
   FieldVector load = space.make_field();
   const auto add_cell = [&](const DoFHandler<2>::active_cell_iterator& cell) {
     if (!cell->is_locally_owned())
       return;
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
-      ordered[i] = dofs[numbering[i]];
-      cell_lift(i) = lift(ordered[i]);
-    }
+    const auto& of_cell = dofs.of(cell);
+    for (unsigned int i = 0; i < n; ++i)
+      cell_lift(i) = lift(of_cell[i]);
     if (cell_lift.all_zero())
       return;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1], cell_matrix);
     cell_matrix.vmult(cell_vector, cell_lift);
     cell_vector *= -1;
-    constraints.distribute_local_to_global(cell_vector, ordered, load);
+    constraints.distribute_local_to_global(cell_vector, of_cell, load);
   };
   // Without hanging nodes only cells at the surface and the seam feel the values prescribed there.
   if (space.dof_handler().get_triangulation().has_hanging_nodes())

@@ -2,6 +2,7 @@
 
 #include "angular_bubbles.h"
 #include "interval_map.h"
+#include "lexicographic_dofs.h"
 #include "missed_moment.h"
 #include "potential_kinks.h"
 
@@ -44,16 +45,14 @@ ForceContribution::ForceContribution(const RingSpace& space,
                                      RadialShapesOfMesh& shapes, ForceColumns& columns,
                                      const ForceJumps& jumps)
     : to_potential(space.make_field()) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  const unsigned int n = element.degree + 1;
-  const auto lagrange = lobatto_lagrange(element.degree);
-  const auto bubble_mode = AngularBubbles::mode(element.degree);
+  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
+  const auto lagrange = lobatto_lagrange(degree);
+  const auto bubble_mode = AngularBubbles::mode(degree);
   std::optional<WeightedShapes> of_gauss;
   IntervalMap<WeightedShapes> of_exact_rules;
   MissedMoment moment(shapes);
   to_bubbles.resize(n * space.dof_handler().get_triangulation().n_active_cells());
-  std::vector<types::global_dof_index> dofs(n * n), ordered(n * n);
+  LexicographicDofs dofs(space.dof_handler());
   Vector<double> cell_vector(n * n);
   std::vector<double> loads(n), kinked(n), kinked_z(n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -69,7 +68,7 @@ ForceContribution::ForceContribution(const RingSpace& space,
         lines.is_exact() ? of_exact_rules.at(low[1], high[1], make_shapes) : *of_gauss;
     ForceLoads& force_loads = columns.loads(low[0], high[0], radial);
     double* const to_bubble = &to_bubbles[n * cell->active_cell_index()];
-    const auto kinks = kinks_of_cell(jumps, low, high, element.degree);
+    const auto kinks = kinks_of_cell(jumps, low, high, degree);
     const double length = high[1] - low[1];
     cell_vector = 0;
     for (unsigned int p = 0; p < lines.columns.size(); ++p) {
@@ -95,10 +94,7 @@ ForceContribution::ForceContribution(const RingSpace& space,
           cell_vector(i + n * j) += slope(p, j) * loads[i];
       }
     }
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      ordered[i] = dofs[numbering[i]];
-    constraints.distribute_local_to_global(cell_vector, ordered, to_potential);
+    constraints.distribute_local_to_global(cell_vector, dofs.of(cell), to_potential);
     moment.add_cell(low, high, lines, radial);
   }
   to_potential.compress(VectorOperation::add);

@@ -1,5 +1,7 @@
 #include "nested_dissection.h"
 
+#include "lexicographic_dofs.h"
+
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria.h>
@@ -147,23 +149,19 @@ unsigned int count_radial_cells(const Triangulation<2>& triangulation) {
 
 std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
   const auto& triangulation = handler.get_triangulation();
-  const auto& element = dynamic_cast<const FE_Q<2>&>(handler.get_fe());
-  const unsigned int n = element.degree + 1;
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  const std::vector<double> places = node_places(element.degree);
+  const unsigned int degree = handler.get_fe().degree, n = degree + 1;
+  const std::vector<double> places = node_places(degree);
 
   const unsigned int n_radial = count_radial_cells(triangulation);
   std::vector<Node> nodes(handler.n_dofs());
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+  LexicographicDofs dofs(handler);
   for (const auto& cell : handler.active_cell_iterators()) {
     const Place place = place_of(cell, n_radial);
-    cell->get_dof_indices(dofs);
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
-      const auto dof = dofs[numbering[i]];
-      nodes[dof] = {
+    const auto& of_cell = dofs.of(cell);
+    for (unsigned int i = 0; i < of_cell.size(); ++i)
+      nodes[of_cell[i]] = {
           {{place.low[0] + place.size * places[i % n], place.low[1] + place.size * places[i / n]}},
-          dof};
-    }
+          of_cell[i]};
   }
   const double n_angular = triangulation.n_cells(0) / n_radial;
   const Box ring = {{{0, 0}}, {{double(n_radial), n_angular}}, true};

@@ -3,6 +3,7 @@
 #include "cell_lines.h"
 #include "constant_size.h"
 #include "interpolation.h"
+#include "lexicographic_dofs.h"
 #include "parameters.h"
 #include "result.h"
 #include "ring_mesh.h"
@@ -169,7 +170,6 @@ template <typename Size>
 std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
                              const ContactProblem& problem, const ContactSolution& contact,
                              const FieldVector& field) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
   const auto& triangulation = space.dof_handler().get_triangulation();
   const unsigned int degree = n - 1;
   const QGauss<1> gauss(n);
@@ -177,13 +177,12 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
   const LineShapes inside(degree, mapped(points, 0, 1)), ends(degree, {0, 1});
   const std::vector<LineShapes> halves = {LineShapes(degree, mapped(points, 0, 0.5)),
                                           LineShapes(degree, mapped(points, 0.5, 1))};
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  std::vector<types::global_dof_index> dofs(n * n);
+  LexicographicDofs dofs(space.dof_handler());
   const auto gather = [&](const auto& cell) {
     CellField<Size> u(n);
-    cell->get_dof_indices(dofs);
+    const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < n * n; ++i)
-      u.nodal[i] = field(dofs[numbering[i]]);
+      u.nodal[i] = field(of_cell[i]);
     return u;
   };
 

@@ -1,5 +1,6 @@
 #include "work_of_force.h"
 
+#include "lexicographic_dofs.h"
 #include "shape_products.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -13,13 +14,11 @@ using namespace dealii;
 
 double work_of_force(const ForceInterpolant& force, const RingSpace& space,
                      const FieldVector& field) {
-  const auto& element = dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe());
-  const unsigned int n = element.degree + 1;
-  const std::vector<unsigned int> numbering = element.get_poly_space_numbering_inverse();
-  const auto lagrange = lobatto_lagrange(element.degree);
+  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
+  const auto lagrange = lobatto_lagrange(degree);
   // Exact between the ends of panels for f_0 times w
   const QGauss<1> gauss((ForcePiece::n_coefficients + n) / 2);
-  std::vector<types::global_dof_index> dofs(n * n);
+  LexicographicDofs dofs(space.dof_handler());
   std::vector<double> on_line(n);
   double work = 0;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -27,7 +26,7 @@ double work_of_force(const ForceInterpolant& force, const RingSpace& space,
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const Tensor<1, 2> size = high - low;
-    cell->get_dof_indices(dofs);
+    const auto& of_cell = dofs.of(cell);
     std::vector<double> ends = force.panel_ends(low[1], high[1], low[0]);
     ends.insert(ends.begin(), low[1]);
     ends.push_back(high[1]);
@@ -39,7 +38,7 @@ double work_of_force(const ForceInterpolant& force, const RingSpace& space,
         for (unsigned int j = 0; j < n; ++j) {
           const double shape = lagrange[j].value((z - low[1]) / size[1]);
           for (unsigned int i = 0; i < n; ++i)
-            on_line[i] += shape * field(dofs[numbering[i + n * j]]);
+            on_line[i] += shape * field(of_cell[i + n * j]);
         }
         for (const ForcePiece& piece : force.column(z, low[0])) {
           const double begin = std::max(piece.begin, low[0]), end = std::min(piece.end, high[0]);

@@ -2,7 +2,8 @@
 
 Usage: scaling.py ROLLWAVE FILE.prm [RANKS]    (from 1 to RANKS by doubling; default 2)
 
-Ratios are of runs in turn, the better of two each. Seconds are those of summary.json, without the
+Ratios are of runs in turn, the better of two each. Runs apart have nothing to do with each other: what
+they lose is what the machine has less of for each core. Seconds are those of summary.json, without the
 start of the processes. The solve is all from the degrees of freedom to the displacement.
 """
 
@@ -16,29 +17,43 @@ SOLVE = ["space", "assembly", "preconditioner", "contact"]
 PHASES = ["mesh"] + SOLVE + ["certificate"]
 
 
-def run(program, scene, ranks, degree, radial, angular):
-    """The summary of the faster of two runs."""
-    best = None
+def start(program, scene, ranks, degree, radial, angular, directory):
+    settings = {"Mesh/Degree": degree, "Mesh/Radial cells": radial // degree,
+                "Mesh/Angular cells": angular // degree, "Solver/Kind": "iterative",
+                "Output/Files": "summary"}
+    command = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+    command += [program, scene, "--output", directory]
+    for key, value in settings.items():
+        command += ["--set", f"{key}={value}"]
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
+                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OPENBLAS_NUM_THREADS="1")
+    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
+
+
+def total(summary):
+    return summary["seconds"]["total"]
+
+
+def run(program, scene, runs, ranks, degree, radial, angular):
+    """The slowest summary of runs side by side, in the faster of two turns."""
+    turns = []
     for _ in range(2):
         with tempfile.TemporaryDirectory() as directory:
-            settings = {"Mesh/Degree": degree, "Mesh/Radial cells": radial // degree,
-                        "Mesh/Angular cells": angular // degree, "Solver/Kind": "iterative",
-                        "Output/Files": "summary"}
-            command = ["mpirun", "--oversubscribe", "-np", str(ranks), program, scene,
-                       "--output", directory]
-            for key, value in settings.items():
-                command += ["--set", f"{key}={value}"]
-            environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                               OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OPENBLAS_NUM_THREADS="1")
-            subprocess.run(command, check=True, env=environment, stdout=subprocess.DEVNULL)
-            with open(os.path.join(directory, "summary.json")) as file:
-                summary = json.load(file)
-        if best is None or summary["seconds"]["total"] < best["seconds"]["total"]:
-            best = summary
-    return best
+            places = [os.path.join(directory, str(k)) for k in range(runs)]
+            for process in [start(program, scene, ranks, degree, radial, angular, place)
+                            for place in places]:
+                if process.wait() != 0:
+                    sys.exit("a run has failed")
+            summaries = []
+            for place in places:
+                with open(os.path.join(place, "summary.json")) as file:
+                    summaries.append(json.load(file))
+            turns.append(max(summaries, key=total))
+    return min(turns, key=total)
 
 
-def table(title, program, scene, ranks, cells):
+def table(title, program, scene, cases):
+    """Of cases (name, runs side by side, ranks of each, radial cells, angular cells)."""
     print(f"\n{title}\n")
     columns = ["ranks", "degree", "unknowns", "CG iterations"] + PHASES + \
         ["total", "speed-up", "of the solve", "MiB of a rank"]
@@ -46,13 +61,13 @@ def table(title, program, scene, ranks, cells):
     print("|" + "---|" * len(columns))
     for degree in (1, 2):
         first = None
-        for n in ranks:
-            summary = run(program, scene, n, degree, *cells(n))
+        for name, runs, n, radial, angular in cases:
+            summary = run(program, scene, runs, n, degree, radial, angular)
             seconds = summary["seconds"]
-            dofs = summary["mesh"]["dofs"]
+            dofs = runs * summary["mesh"]["dofs"]
             rates = [dofs / seconds["total"], dofs / sum(seconds[phase] for phase in SOLVE)]
             first = first or rates
-            row = [n, degree, summary["mesh"]["dofs"], summary["iterations"]["linear"]] + \
+            row = [name, degree, dofs, summary["iterations"]["linear"]] + \
                 [f"{seconds.get(phase, 0):.2f}" for phase in PHASES] + \
                 [f"{seconds['total']:.2f}"] + \
                 [f"{rate / one:.2f}" for rate, one in zip(rates, first)] + \
@@ -64,9 +79,15 @@ def main():
     program, scene = sys.argv[1:3]
     most = int(sys.argv[3]) if len(sys.argv) > 3 else 2
     ranks = [1 << k for k in range(most.bit_length()) if 1 << k <= most]
-    table("Strong scaling", program, scene, ranks, lambda n: (256, 3584))
-    table("Weak scaling: speed-up is that of unknowns per second", program, scene, ranks,
-          lambda n: (128, 1792 * n))
+    strong = []
+    for n in ranks:
+        strong.append((n, 1, n, 256, 3584))
+        if n > 1:
+            strong.append((f"{n} apart", n, 1, 256, 3584 // n))
+    table("Strong scaling; apart: as many runs of one process each, side by side", program, scene,
+          strong)
+    table("Weak scaling: speed-up is that of unknowns per second", program, scene,
+          [(n, 1, n, 128, 1792 * n) for n in ranks])
 
 
 main()
