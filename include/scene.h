@@ -61,6 +61,9 @@ struct Scene {
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
 
+  /// What a message begins with where f is found not to be finite.
+  std::string force_refusal = "the force is not finite";
+
   /// Whether f is no number.
   bool has_uneven_force() const { return force && !uniform_force; }
 

@@ -267,6 +267,17 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   Declarations keys(prm);
   declare(keys, parameters);
   keys.apply(settings);
+  for (const Setting& setting : settings) {
+    const std::string origin = setting.origin + ", " + setting.path();
+    if (setting.path() == "Study/Vary")
+      for (auto& values : parameters.study.vary)
+        for (Setting& value : values)
+          value.origin = origin;
+    if (setting.path() == "Study/Scenes")
+      for (auto& scene : parameters.study.scenes)
+        for (Setting& value : scene.settings)
+          value.origin = origin;
+  }
   parameters.settings = settings;
   return parameters;
 }

@@ -200,7 +200,7 @@ double possible_half_width(const Scene& scene, double distance, unsigned int ang
 
 std::string force_not_finite_at(const Scene& scene, double r, double z) {
   std::ostringstream text;
-  text << "Cylinder/Radial force is not finite at r = " << r * scene.unit << ", z = " << z;
+  text << scene.force_refusal << " at r = " << r * scene.unit << ", z = " << z;
   return text.str();
 }
 
@@ -215,6 +215,8 @@ Scene make_scene(const Parameters& parameters) {
   scene.inner_radius = parameters.cylinder.inner_radius / unit;
   scene.outer_radius = parameters.cylinder.outer_radius / unit;
   scene.angular_velocity = parameters.cylinder.angular_velocity * unit;
+  scene.force_refusal =
+      refusal(parameters.settings, "Cylinder", "Radial force", "it is not finite");
   const std::optional<double> constant = constant_force(parameters);
   if (!constant)
     scene.force = [unit, f = parse_force(parameters)](double r, double z) {

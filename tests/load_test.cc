@@ -104,6 +104,21 @@ TEST(Load, IsExactWhereTheForceJumps) {
     }
 }
 
+TEST(Load, IsRefusedWithThePlaceOfAForceThatIsNotFinite) {
+  const UntrappedFloatingPoint untrapped;
+  const Parameters parameters = under("if(z<3,1/(r-r),1)", {});
+  try {
+    simulate(make_scene(parameters), parameters);
+    ADD_FAILURE() << "accepted";
+  } catch (const BadInput& error) {
+    EXPECT_NE(
+        std::string(error.what())
+            .find("key \"Radial force\", value \"if(z<3,1/(r-r),1)\": it is not finite at r = "),
+        std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Load, RefusesAForceThatIsNotFiniteOnAPartOfACell) {
   const UntrappedFloatingPoint root_of_a_negative_number;
   const Parameters parameters = under("if(z<2,1,-1)+if(abs(z-1.9948)<1e-4,sqrt(-1),0)",

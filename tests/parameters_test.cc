@@ -267,4 +267,11 @@ TEST(Parameters, EndsOfAGivenZoneAreVertices) {
   }
 }
 
+TEST(Parameters, VariedValuesAreFromThePlaceOfTheStudy) {
+  const Parameters parameters =
+      parameters_of({"Study/Vary=Mesh/Degree = 1 | 2", "Study/Scenes=thin: Road/Distance = 0.9"});
+  EXPECT_EQ(parameters.study.vary[0][1].origin, "test, Study/Vary");
+  EXPECT_EQ(parameters.study.scenes[0].settings[0].origin, "test, Study/Scenes");
+}
+
 } // namespace
