@@ -64,6 +64,21 @@ TEST_F(Program, WritesOnlyWhatIsAskedFor) {
     EXPECT_FALSE(has(name)) << name;
 }
 
+TEST_F(Program, WritesTheOtherFilesWhereTheFieldHasNoPlace) {
+  fs::create_directories(directory / "out" / "solution.vtu");
+  EXPECT_EQ(shell("$rollwave " + scene).exit_code, 3);
+  for (const char* name : {"summary.json", "contact.csv", "parameters.prm", "scene.svg"})
+    EXPECT_TRUE(has(name)) << name;
+}
+
+TEST_F(Program, KeepsTheTableOfAnotherStudy) {
+  const std::string study = "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.8 | ";
+  ASSERT_EQ(shell(study + "0.9'").exit_code, 0);
+  const std::string table = read("study.csv");
+  ASSERT_EQ(shell(study + "0.95'").exit_code, 0);
+  EXPECT_EQ(read("study-before.csv"), table);
+}
+
 TEST_F(Program, OverridesTheFile) {
   const fs::path other = directory / "other";
   ASSERT_EQ(shell("$rollwave " + scene + " --output '" + other.string() +
