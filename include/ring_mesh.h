@@ -15,14 +15,6 @@ namespace rollwave {
 struct Parameters;
 struct Scene;
 
-/// Boundary ids of the rectangle (r, z) in [a, b] x [pi/2, 5 pi/2].
-enum BoundaryId : unsigned int {
-  hub_id = 0,        ///< r = a, where u = 0
-  surface_id = 1,    ///< r = b, which meets the road
-  seam_begin_id = 2, ///< z = pi/2, opposite to the road
-  seam_end_id = 3    ///< z = 5 pi/2, the same points as z = pi/2
-};
-
 /// The unknowns of the first mesh, but for the few that the hub takes away.
 double count_unknowns(const Parameters& parameters);
 
@@ -36,7 +28,8 @@ void check_mesh_size(const Parameters& parameters);
  * within and outside of it differ in length as they must: a zone that ended inside of cells would
  * cut the contact short at another place on every mesh.
  *
- * On several processes the mesh is p4est's, each of them having a part of it.
+ * On several processes each has a part of it. Which class it is of is up to what will be done with
+ * it: p4est's if it may be refined, a make_strip_mesh() if not.
  *
  * @throws BadInput as check_mesh_size(), NotEnoughMemory.
  */

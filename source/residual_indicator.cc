@@ -6,7 +6,6 @@
 #include "lexicographic_dofs.h"
 #include "parameters.h"
 #include "result.h"
-#include "ring_mesh.h"
 #include "scene.h"
 #include "shape_products.h"
 

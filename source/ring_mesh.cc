@@ -1,10 +1,12 @@
 #include "ring_mesh.h"
 
+#include "boundary_id.h"
 #include "errors.h"
 #include "memory.h"
 #include "parameters.h"
 #include "processes.h"
 #include "scene.h"
+#include "strip_mesh.h"
 
 #include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
@@ -27,6 +29,9 @@ using namespace dealii;
 
 namespace {
 
+using Distributed = parallel::distributed::Triangulation<2>;
+
+constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
 constexpr double seam_angle = numbers::PI / 2;
 
 /// @p n + 1 places from @p begin to @p end at equal distances, without the first.
@@ -93,21 +98,39 @@ std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
   return radii;
 }
 
-/// Whether every second place lies in the middle of its neighbours, but for round-off.
-bool can_be_halved(const std::vector<double>& places) {
-  if (places.size() % 2 == 0)
-    return false;
-  for (std::size_t i = 1; i < places.size(); i += 2)
-    if (std::abs(2 * places[i] - places[i - 1] - places[i + 1]) >
-        1e-15 * (std::abs(places[i]) + places.back() - places.front()))
-      return false;
-  return true;
+/// Adds the middles between neighbours.
+void halve(std::vector<double>& places) {
+  std::vector<double> halved = {places.front()};
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    halved.push_back((places[i - 1] + places[i]) / 2);
+    halved.push_back(places[i]);
+  }
+  places = std::move(halved);
 }
 
-void drop_every_second(std::vector<double>& places) {
-  for (std::size_t i = 1; 2 * i < places.size(); ++i)
-    places[i] = places[2 * i];
-  places.resize((places.size() + 1) / 2);
+/// The rectangles between these places on one process.
+std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
+                                            const std::vector<double>& angles) {
+  auto grid = std::make_unique<Triangulation<2>>(smoothing);
+  const std::vector<unsigned int> n_cells = {static_cast<unsigned int>(radii.size() - 1),
+                                             static_cast<unsigned int>(angles.size() - 1)};
+  // In units of cells first: heights may be far smaller than lengths in z, and places shall be
+  // exact, those of the surface above all.
+  GridGenerator::subdivided_hyper_rectangle(*grid, n_cells, Point<2>(),
+                                            Point<2>(n_cells[0], n_cells[1]), /*colorize=*/true);
+  GridTools::transform(
+      [&](const Point<2>& cells) {
+        return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
+      },
+      *grid);
+  return grid;
+}
+
+void make_periodic(Triangulation<2>& triangulation) {
+  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
+  GridTools::collect_periodic_faces(triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
+                                    seam);
+  triangulation.add_periodicity(seam);
 }
 
 /// All digits where they are exact.
@@ -143,45 +166,31 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
   const double bytes = 200. * count_unknowns(parameters) / (mesh.degree * mesh.degree);
   require_memory(bytes / count_processes(communicator), "the mesh", communicator);
 
-  constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
-  auto triangulation = std::make_unique<Triangulation<2>>(smoothing);
   std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
   std::vector<double> angles = angles_of(scene, parameters);
-  unsigned int refinements = mesh.global_refinements;
-  // p4est's coarse cells are known to every process and take far more time each than its refined
-  // ones: those that halve others become refined ones. Not on meshes that may be coarsened.
   const bool is_fixed = mesh.wanted_relative_error == 0 && mesh.adaptive_cycles.value_or(0) == 0;
-  if (is_fixed && !is_alone(communicator))
-    while (can_be_halved(radii) && can_be_halved(angles) && angles.size() > 6) {
-      drop_every_second(radii);
-      drop_every_second(angles);
-      ++refinements;
+  if (is_fixed && !is_alone(communicator)) {
+    for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
+      halve(radii);
+      halve(angles);
     }
-  const std::vector<unsigned int> n_cells = {static_cast<unsigned int>(radii.size() - 1),
-                                             static_cast<unsigned int>(angles.size() - 1)};
-  // In units of cells first: heights may be far smaller than lengths in z, and places shall be
-  // exact, those of the surface above all.
-  GridGenerator::subdivided_hyper_rectangle(*triangulation, n_cells, Point<2>(),
-                                            Point<2>(n_cells[0], n_cells[1]), /*colorize=*/true);
-  GridTools::transform(
-      [&](const Point<2>& cells) {
-        return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
-      },
-      *triangulation);
-  using Distributed = parallel::distributed::Triangulation<2>;
+    auto strips = make_strip_mesh(radii, angles, communicator);
+    make_periodic(*strips);
+    return strips;
+  }
+
+  std::unique_ptr<Triangulation<2>> triangulation = make_grid(radii, angles);
+  Distributed* distributed = nullptr;
   if (!is_alone(communicator)) {
     // Cells change their process when a refinement is complete, and not before.
-    auto distributed = std::make_unique<Distributed>(communicator, smoothing,
-                                                     Distributed::no_automatic_repartitioning);
-    distributed->copy_triangulation(*triangulation);
-    triangulation = std::move(distributed);
+    auto shared = std::make_unique<Distributed>(communicator, smoothing,
+                                                Distributed::no_automatic_repartitioning);
+    shared->copy_triangulation(*triangulation);
+    distributed = shared.get();
+    triangulation = std::move(shared);
   }
-  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
-  GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
-                                    seam);
-  triangulation->add_periodicity(seam);
-  auto* const distributed = dynamic_cast<Distributed*>(triangulation.get());
-  for (unsigned int refinement = 0; refinement < refinements; ++refinement) {
+  make_periodic(*triangulation);
+  for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
     triangulation->refine_global();
     // From then on the shares of the processes are equal but for few cells, and stay so.
     constexpr unsigned int cells_of_a_share = 4000;

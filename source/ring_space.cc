@@ -1,9 +1,9 @@
 #include "ring_space.h"
 
+#include "boundary_id.h"
 #include "errors.h"
 #include "nested_dissection.h"
 #include "processes.h"
-#include "ring_mesh.h"
 #include "scene.h"
 
 #include <deal.II/base/function.h>
