@@ -62,6 +62,7 @@ struct AlgebraicMultigrid::Hypre {
                          &matrix);
     HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
     // Known sizes of both parts of a row spare hypre a copy of the matrix.
+    const int* const column_numbers = source.ColMap().MyGlobalElements();
     std::vector<HYPRE_BigInt> columns;
     const auto visit_rows = [&](const auto& visit) {
       for (HYPRE_Int i = 0; i < n_rows; ++i) {
@@ -71,7 +72,7 @@ struct AlgebraicMultigrid::Hypre {
         source.ExtractMyRowView(i, n, values, local_columns);
         columns.resize(n);
         for (int k = 0; k < n; ++k)
-          columns[k] = source.ColMap().GID(local_columns[k]);
+          columns[k] = column_numbers[local_columns[k]];
         visit(i, n, values);
       }
     };

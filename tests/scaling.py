@@ -21,7 +21,9 @@ def start(program, scene, ranks, degree, radial, angular, directory):
     settings = {"Mesh/Degree": degree, "Mesh/Radial cells": radial // degree,
                 "Mesh/Angular cells": angular // degree, "Solver/Kind": "iterative",
                 "Output/Files": "summary"}
-    command = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
+    if ranks > os.cpu_count():
+        command.insert(1, "--oversubscribe")  # which costs: ranks that wait yield their core
     command += [program, scene, "--output", directory]
     for key, value in settings.items():
         command += ["--set", f"{key}={value}"]
