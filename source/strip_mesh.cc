@@ -72,8 +72,8 @@ Description describe(const std::vector<double>& radii, const std::vector<double>
     if (column == 0 || views[column - 1] == View::none)
       append_vertices(angles[column]);
     append_vertices(angles[column + 1]);
-    info.subdomain_id = views[column] == View::relevant ? shares.owner(column)
-                                                        : numbers::artificial_subdomain_id;
+    info.subdomain_id =
+        views[column] == View::relevant ? shares.owner(column) : numbers::artificial_subdomain_id;
     info.level_subdomain_id = info.subdomain_id;
     for (unsigned int row = 0; row < n_rows; ++row) {
       const unsigned int high = vertices.size() - n_radii + row, low = high - n_radii;

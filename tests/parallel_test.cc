@@ -115,6 +115,14 @@ TEST_F(Processes, MayBeMoreThanCells) {
                        {7, 13});
 }
 
+// Strips of one column or none, and cells beside them that are the same on both sides.
+TEST_F(Processes, MayBeMoreThanColumns) {
+  const std::string columns =
+      scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' ";
+  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'", {2, 5, 13});
+  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=4' --set 'Mesh/Degree=1'", {3, 7});
+}
+
 TEST_F(Processes, IterateLikeOneByUzawa) {
   expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-6'", {3});
 }
@@ -128,7 +136,7 @@ TEST_F(Processes, SolveOtherScenesLikeOne) {
                                "force=0.1*cos(z)*r' --set 'Cylinder/Angular velocity=1' --set "
                                "'Mesh/Wanted relative error=0.1' --set 'Mesh/Degree=2'",
                        {3});
-  // Whose ends are nearly, but not but for round-off, at places of the halved mesh.
+  // Columns of two lengths.
   expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-4.prm' --set 'Mesh/Degree=2' --set "
                        "'Mesh/Radial cells=8' --set 'Mesh/Angular cells=96' --set "
                        "'Road/Contact zone=4.450589592586, 4.9741883681836'",
