@@ -19,6 +19,10 @@ namespace rollwave {
  * s from 1/3 (critical speed) over 1/2 (below it) to 1 (cells so long in r that the surface is a
  * membrane). If the end lies e too far in, the gap is negative outside up to (1+s) e, and two
  * thirds of that lie between 8/9 e and 4/3 e. So the error of an end shrinks to a third or less.
+ *
+ * Where there is no contact yet, the surface penetrates a stretch of the road, of which contact is
+ * what remains when it is pushed back: nearly all in rings that are thin beside it, half where
+ * contact is short and the hub small. Three quarters are within a quarter of either.
  */
 void move_ends(const ContactProblem& problem, const ContactSolution& solution,
                std::vector<bool>& next);

@@ -34,6 +34,12 @@ int nodes_within(const ContactProblem& problem, const Walk& node, double wanted,
   return count;
 }
 
+/// Drops @p n nodes from a stretch that goes on in the direction of the walk.
+void drop(const Walk& node, int n, std::vector<bool>& next) {
+  for (int k = 0; k < n; ++k)
+    next[node(k)] = false;
+}
+
 /// Drops nodes from the end of a stretch of @p n active nodes whose end is pulled.
 void drop_pulled_end(const ContactProblem& problem, const ContactSolution& solution,
                      const Walk& node, int n, std::vector<bool>& next) {
@@ -48,8 +54,7 @@ void drop_pulled_end(const ContactProblem& problem, const ContactSolution& solut
     return;
   const double wanted = (length(problem, node, negative) + 2 * length(problem, node, balanced)) / 3;
   const int dropped = std::max(negative, nodes_within(problem, node, wanted, n));
-  for (int k = 0; k < dropped; ++k)
-    next[node(k)] = false;
+  drop(node, dropped, next);
 }
 
 /// Of the nodes that penetrate next to an active stretch, keeps those nearest to it.
@@ -65,6 +70,31 @@ void trim_penetrating_end(const ContactProblem& problem, const Walk& node, int n
   const int kept = nodes_within(problem, node, wanted, penetrating);
   for (int k = kept; k < penetrating; ++k)
     next[node(k)] = false;
+}
+
+/// Of the nodes from @p first to @p last that penetrate with no contact next to them, keeps the
+/// middle of each stretch. Where one reaches the end of the zone it has no end of its own.
+void trim_new_stretches(const ContactProblem& problem, int first, int last,
+                        std::vector<bool>& next) {
+  const int size = problem.size();
+  for (int begin = first; begin <= last; ++begin) {
+    int end = begin;
+    while (end <= last && next[end])
+      ++end;
+    const int n = end - begin;
+    const bool touches_contact = (begin == first && first > 0) || (end > last && last < size - 1);
+    if (n > few && !touches_contact) {
+      const Walk forward = {begin, 1}, backward = {end - 1, -1};
+      const double wanted = length(problem, forward, n) / 8;
+      const int low = nodes_within(problem, forward, wanted, n),
+                high = nodes_within(problem, backward, wanted, n);
+      if (begin > 0)
+        drop(forward, low, next);
+      if (end < size)
+        drop(backward, high, next);
+    }
+    begin = end;
+  }
 }
 
 } // namespace
@@ -85,6 +115,7 @@ void move_ends(const ContactProblem& problem, const ContactSolution& solution,
       if (last < size - 1)
         drop_pulled_end(problem, solution, {last, -1}, n, next);
     } else {
+      trim_new_stretches(problem, first, last, next);
       if (first > 0)
         trim_penetrating_end(problem, {first, 1}, n, next);
       if (last < size - 1)

@@ -1,6 +1,6 @@
 #include "simulation.h"
 
-#include "certificate_parts.h"
+#include "certificate_preparation.h"
 #include "errors.h"
 #include "interrupt.h"
 #include "load_bounds.h"
@@ -64,50 +64,12 @@ std::string left_out_text(const std::string& what, const NotSolved& failure,
   return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
 }
 
-/// Whether it gains time, and leaves enough memory to solve @p scene directly, to prepare the
-/// certificate at once.
-bool gains_by_preparing(const Scene& scene, const Parameters& parameters,
-                        const Solution& solution) {
-  const double n = solution.space->n_unknowns(), m = solution.space->contact_nodes().size();
-  const double bytes = 4 * (1024 * n + sizeof(double) * m * m); // twice what both take
-  return parameters.solver.kind != SolverKind::iterative &&
-         solution.system.stiffness.kind != SolverKind::iterative && n < many_unknowns &&
-         !is_certificate_prepared(scene, solution.system) && gains_by_threads() &&
-         bytes < available_memory();
-}
-
-/// Prepares a certificate while the scene is solved.
-class Preparation {
-public:
-  Preparation(const Scene& scene, Solution& solution)
-      : solution(solution), task(true, [this, &scene, &solution] {
-          prepare_certificate(*solution.space, scene, SolverKind::direct, false, solution.system,
-                              work);
-        }) {}
-
-  /// @throws as prepare_certificate(), but leaves what lacked memory to certify()
-  void finish() {
-    const Work::Phase phase(solution.result.work, "certificate");
-    try {
-      task.finish();
-    } catch (const NotEnoughMemory&) {
-      solution.system.potential.reset();
-    }
-    solution.result.work.add_counts(work);
-  }
-
-private:
-  Solution& solution;
-  Work work;
-  TaskBeside task;
-};
-
 /// A certificate that fails, such as for want of memory, leaves the solution as it is, with a
 /// shortfall. Where an error is wanted and the mesh before was certified, this one counts as not
 /// solved.
 /// @throws NotSolved then.
 void certify_solution(const Scene& scene, const MeshSolution& on_mesh, bool wants_error,
-                      std::optional<Preparation>& preparation, Solution& solution) {
+                      std::optional<CertificatePreparation>& preparation, Solution& solution) {
   Result& result = solution.result;
   try {
     if (preparation)
@@ -265,7 +227,7 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, const Re
     std::optional<BlasOnOneThread> blas;
     if (solution.space->n_unknowns() < many_unknowns)
       blas.emplace();
-    std::optional<Preparation> preparation;
+    std::optional<CertificatePreparation> preparation;
     if (certifies && (is_last || wants_error) && gains_by_preparing(scene, parameters, solution)) {
       make_load(scene, parameters, *solution.space, solution.system, result.work);
       preparation.emplace(scene, solution);
