@@ -139,6 +139,9 @@ struct Parameters {
  */
 Parameters read_parameters(const std::vector<Setting>& settings);
 
+/// How often a run refines its mesh at most.
+unsigned int most_cycles(const Parameters& parameters);
+
 /// The message for a value that is not admitted: where it was set, section, key, value and what is
 /// wanted instead.
 std::string refusal(const std::vector<Setting>& settings, const std::string& section,

@@ -282,6 +282,12 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   return parameters;
 }
 
+unsigned int most_cycles(const Parameters& parameters) {
+  const auto& mesh = parameters.mesh;
+  return mesh.adaptive_cycles.value_or(
+      mesh.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
+}
+
 std::string refusal(const std::vector<Setting>& settings, const std::string& section,
                     const std::string& key, const std::string& wanted) {
   const auto last = std::find_if(settings.rbegin(), settings.rend(), [&](const Setting& setting) {

@@ -168,8 +168,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const Param
 
   std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
   std::vector<double> angles = angles_of(scene, parameters);
-  const bool is_fixed = mesh.wanted_relative_error == 0 && mesh.adaptive_cycles.value_or(0) == 0;
-  if (is_fixed && !is_alone(communicator)) {
+  if (most_cycles(parameters) == 0 && !is_alone(communicator)) {
     for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
       halve(radii);
       halve(angles);

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -186,13 +185,6 @@ Parameters coarser(Parameters parameters) {
   parameters.certificate = {};
   parameters.certificate.error_bound = false;
   return parameters;
-}
-
-/// How often the mesh is refined at most.
-unsigned int most_cycles(const Parameters& parameters) {
-  const auto& mesh = parameters.mesh;
-  return mesh.adaptive_cycles.value_or(
-      mesh.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
 }
 
 /// Which parts of the linear problems are kept when they have been used.

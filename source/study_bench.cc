@@ -106,7 +106,7 @@ public:
 
   /// Announces a run.
   void announce(const Scene& scene, const Parameters& parameters) {
-    if (is_adaptive(parameters) && !parameters.study.continue_meshes)
+    if (most_cycles(parameters) > 0 && !parameters.study.continue_meshes)
       return;
     const auto [entry, is_new] =
         shared.try_emplace(mesh_key(parameters), Shared{scene.zone_begin, scene.zone_end, 0});

@@ -38,13 +38,8 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   return plans;
 }
 
-bool is_adaptive(const Parameters& parameters) {
-  return parameters.mesh.wanted_relative_error > 0 ||
-         parameters.mesh.adaptive_cycles.value_or(0) > 0;
-}
-
 bool continues_mesh(const Parameters& parameters) {
-  return is_adaptive(parameters) && parameters.study.continue_meshes;
+  return most_cycles(parameters) > 0 && parameters.study.continue_meshes;
 }
 
 } // namespace rollwave
