@@ -15,6 +15,10 @@
 #include <utility>
 #include <vector>
 
+namespace dealii::TrilinosWrappers {
+class SparsityPattern;
+}
+
 namespace rollwave {
 
 struct Scene;
@@ -102,6 +106,11 @@ public:
   /// one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
+  /// make_matrix_pattern() for all processes, once MPI has been started. Without hanging nodes all
+  /// matrices share one: constraints then differ on hub and surface only.
+  std::shared_ptr<const dealii::TrilinosWrappers::SparsityPattern>
+  matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
+
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
   /// next to them, and what constraints tie these to.
   const dealii::IndexSet& relevant_dofs() const { return relevant; }
@@ -132,6 +141,8 @@ private:
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   mutable std::once_flag is_ordered;
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
+  mutable std::shared_ptr<const dealii::TrilinosWrappers::SparsityPattern>
+      pattern; ///< likewise, without hanging nodes
 };
 
 } // namespace rollwave

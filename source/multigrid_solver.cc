@@ -5,10 +5,8 @@
 #include "processes.h"
 #include "scene.h"
 
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/solver_cg.h>
-#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
@@ -46,18 +44,12 @@ void MultigridSolver::set_matrix(const Scene& scene, const AffineConstraints<dou
                                  const EachCellMatrix& each, Work& /*work*/) {
   preconditioner.reset();
   threshold = strong_threshold(space, scene);
-  const auto& handler = space.dof_handler();
-  const IndexSet& owned = handler.locally_owned_dofs();
-  const IndexSet& relevant = space.relevant_dofs();
-  DynamicSparsityPattern pattern(handler.n_dofs(), handler.n_dofs(), relevant);
-  DoFTools::make_sparsity_pattern(handler, pattern, constraints, /*keep_constrained_dofs=*/false);
-  if (!is_alone(space.communicator()))
-    SparsityTools::distribute_sparsity_pattern(pattern, owned, space.communicator(), relevant);
+  const auto pattern = space.matrix_pattern(constraints);
   // Measured: 59 bytes with linear elements, 41 with quadratic ones.
   constexpr double bytes_per_entry = 60;
-  require_memory(bytes_per_entry * pattern.n_nonzero_elements(),
+  require_memory(bytes_per_entry * pattern->trilinos_sparsity_pattern().NumMyNonzeros(),
                  "the system matrix with its multigrid hierarchy", space.communicator());
-  stiffness.reinit(owned, owned, pattern, space.communicator());
+  stiffness.reinit(*pattern);
   each([&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
     constraints.distribute_local_to_global(cell_matrix, dofs, stiffness);
   });

@@ -2,6 +2,7 @@
 
 #include "boundary_id.h"
 #include "errors.h"
+#include "matrix_pattern.h"
 #include "nested_dissection.h"
 #include "processes.h"
 #include "scene.h"
@@ -21,17 +22,28 @@ namespace rollwave {
 
 using namespace dealii;
 
+namespace {
+
+/// What hanging nodes and the nodes on the seam follow, not closed yet.
+AffineConstraints<double> ties(const DoFHandler<2>& handler) {
+  AffineConstraints<double> constraints(DoFTools::extract_locally_relevant_dofs(handler));
+  // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
+  // the seam twice.
+  if (handler.get_triangulation().has_hanging_nodes())
+    DoFTools::make_hanging_node_constraints(handler, constraints);
+  DoFTools::make_periodicity_constraints(handler, seam_begin_id, seam_end_id, /*direction=*/1,
+                                         constraints);
+  return constraints;
+}
+
+} // namespace
+
 RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, unsigned int degree)
     : radius(scene.outer_radius), element(degree), handler(triangulation) {
   handler.distribute_dofs(element);
 
   relevant = DoFTools::extract_locally_relevant_dofs(handler);
-  affine_constraints.reinit(relevant);
-  // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
-  // the seam twice.
-  DoFTools::make_hanging_node_constraints(handler, affine_constraints);
-  DoFTools::make_periodicity_constraints(handler, seam_begin_id, seam_end_id, /*direction=*/1,
-                                         affine_constraints);
+  affine_constraints.copy_from(ties(handler));
   VectorTools::interpolate_boundary_values(cartesian, handler, hub_id, Functions::ZeroFunction<2>(),
                                            affine_constraints);
   affine_constraints.close();
@@ -168,6 +180,18 @@ RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) cons
 const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
   std::call_once(is_ordered, [this] { order = dissect(handler); });
   return order;
+}
+
+std::shared_ptr<const TrilinosWrappers::SparsityPattern>
+RingSpace::matrix_pattern(const AffineConstraints<double>& constraints) const {
+  if (handler.get_triangulation().has_hanging_nodes())
+    return make_matrix_pattern(handler, constraints, relevant);
+  if (!pattern) {
+    AffineConstraints<double> seam = ties(handler);
+    seam.close();
+    pattern = make_matrix_pattern(handler, seam, relevant);
+  }
+  return pattern;
 }
 
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {

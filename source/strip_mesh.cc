@@ -4,8 +4,7 @@
 #include "processes.h"
 
 #include <deal.II/distributed/fully_distributed_tria.h>
-#include <deal.II/grid/cell_id.h>
-#include <deal.II/grid/tria_description.h>
+#include <deal.II/grid/tria_iterator.h>
 
 #include <cstdint>
 
@@ -14,8 +13,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-using Description = TriangulationDescription::Description<2, 2>;
 
 /// What a process knows of a column of cells.
 enum class View { none, artificial, relevant };
@@ -45,77 +42,93 @@ std::vector<View> views_of(unsigned int process, const Shares& shares) {
   return views;
 }
 
-/// The columns in view, one after another; columns next to each other share their vertices.
-Description describe(const std::vector<double>& radii, const std::vector<double>& angles,
-                     const Shares& shares, const std::vector<View>& views, MPI_Comm communicator) {
-  const unsigned int n_radii = radii.size(), n_rows = n_radii - 1, n_columns = views.size();
-  const bool has_both_ends = views.front() != View::none && views.back() != View::none;
-  Description description;
-  description.comm = communicator;
-  description.settings = TriangulationDescription::default_setting;
-  description.smoothing = Triangulation<2>::none;
-  description.cell_infos.resize(1);
-  auto& vertices = description.coarse_cell_vertices;
-  const auto append_vertices = [&](double angle) {
-    for (const double r : radii)
-      vertices.emplace_back(r, angle);
-  };
-
-  TriangulationDescription::CellData<2> info;
-  info.manifold_id = numbers::flat_manifold_id;
-  info.manifold_line_ids.fill(numbers::flat_manifold_id);
-  info.manifold_quad_ids.fill(numbers::flat_manifold_id);
-  CellData<2> cell;
-  for (unsigned int column = 0; column < n_columns; ++column) {
-    if (views[column] == View::none)
-      continue;
-    if (column == 0 || views[column - 1] == View::none)
-      append_vertices(angles[column]);
-    append_vertices(angles[column + 1]);
-    info.subdomain_id =
-        views[column] == View::relevant ? shares.owner(column) : numbers::artificial_subdomain_id;
-    info.level_subdomain_id = info.subdomain_id;
-    for (unsigned int row = 0; row < n_rows; ++row) {
-      const unsigned int high = vertices.size() - n_radii + row, low = high - n_radii;
-      cell.vertices = {low, low + 1, high, high + 1};
-      description.coarse_cells.push_back(cell);
-      const types::coarse_cell_id id = types::coarse_cell_id(column) * n_rows + row;
-      description.coarse_cell_index_to_coarse_cell_id.push_back(id);
-      info.id = CellId(id, std::vector<std::uint8_t>()).to_binary<2>();
-      info.boundary_ids.clear();
-      if (row == 0)
-        info.boundary_ids.emplace_back(0, hub_id);
-      if (row == n_rows - 1)
-        info.boundary_ids.emplace_back(1, surface_id);
-      if (column == 0)
-        info.boundary_ids.emplace_back(2, has_both_ends ? seam_begin_id : unpaired_seam_id);
-      if (column == n_columns - 1)
-        info.boundary_ids.emplace_back(3, has_both_ends ? seam_end_id : unpaired_seam_id);
-      description.cell_infos[0].push_back(info);
-    }
-  }
-  return description;
-}
-
-/// Finds a cell by its number at once. deal.II's class searches, twice for each comparison when it
-/// sorts the cells, which takes longer than all else.
+/// deal.II's class would be given what a process has of the mesh as a description. It sorts the
+/// cells of that twice and looks their numbers up in a map, which takes longer than all else: here
+/// they are made in order, and rows and columns tell their numbers.
 class StripMesh : public parallel::fullydistributed::Triangulation<2> {
 public:
-  StripMesh(unsigned int n_rows, const std::vector<View>& views, MPI_Comm communicator)
-      : parallel::fullydistributed::Triangulation<2>(communicator), n_rows(n_rows) {
-    unsigned int n_cells = 0;
-    for (const View view : views) {
-      first_cell.push_back(n_cells);
-      n_cells += view == View::none ? 0 : n_rows;
+  StripMesh(const std::vector<double>& radii, const std::vector<double>& angles,
+            MPI_Comm communicator)
+      : parallel::fullydistributed::Triangulation<2>(communicator),
+        n_rows(radii.size() - 1), shares{angles.size() - 1, count_processes(communicator)},
+        views(views_of(process_number(communicator), shares)) {
+    for (unsigned int column = 0; column < views.size(); ++column) {
+      first_cell.push_back(n_rows * columns.size());
+      if (views[column] != View::none)
+        columns.push_back(column);
     }
+    create_cells(radii, angles);
+    hand_out();
+    parallel::TriangulationBase<2>::update_number_cache();
+    number_cache.number_of_global_coarse_cells = types::coarse_cell_id(n_rows) * views.size();
   }
 
 private:
+  /// The columns in view, one after another; columns next to each other share their vertices. A
+  /// process that has none gets a cell that is nobody's, since deal.II wants one.
+  void create_cells(const std::vector<double>& radii, const std::vector<double>& angles) {
+    const unsigned int n_radii = radii.size();
+    std::vector<Point<2>> vertices;
+    const auto append_vertices = [&](double angle) {
+      for (const double r : radii)
+        vertices.emplace_back(r, angle);
+    };
+    std::vector<CellData<2>> cells;
+    const auto append_cell = [&](unsigned int row) {
+      const unsigned int high = vertices.size() - n_radii + row, low = high - n_radii;
+      cells.emplace_back();
+      cells.back().vertices = {low, low + 1, high, high + 1};
+    };
+    for (const unsigned int column : columns) {
+      if (column == 0 || views[column - 1] == View::none)
+        append_vertices(angles[column]);
+      append_vertices(angles[column + 1]);
+      for (unsigned int row = 0; row < n_rows; ++row)
+        append_cell(row);
+    }
+    if (columns.empty()) {
+      append_vertices(angles[0]);
+      append_vertices(angles[1]);
+      append_cell(0);
+    }
+    dealii::Triangulation<2>::create_triangulation(vertices, cells, SubCellData());
+  }
+
+  /// Who has which cell, and the ids of the boundary.
+  void hand_out() {
+    const bool has_both_ends = views.front() != View::none && views.back() != View::none;
+    for (const auto& cell : active_cell_iterators()) {
+      cell->set_subdomain_id(numbers::artificial_subdomain_id);
+      if (columns.empty())
+        return;
+      const unsigned int row = cell->index() % n_rows, column = columns[cell->index() / n_rows];
+      if (views[column] == View::relevant)
+        cell->set_subdomain_id(shares.owner(column));
+      if (row == 0)
+        cell->face(0)->set_boundary_id(hub_id);
+      if (row == n_rows - 1)
+        cell->face(1)->set_boundary_id(surface_id);
+      if (column == 0)
+        cell->face(2)->set_boundary_id(has_both_ends ? seam_begin_id : unpaired_seam_id);
+      if (column == views.size() - 1)
+        cell->face(3)->set_boundary_id(has_both_ends ? seam_end_id : unpaired_seam_id);
+    }
+  }
+
   unsigned int coarse_cell_id_to_coarse_cell_index(types::coarse_cell_id id) const override {
     return first_cell[id / n_rows] + id % n_rows;
   }
 
+  types::coarse_cell_id coarse_cell_index_to_coarse_cell_id(unsigned int index) const override {
+    if (columns.empty())
+      return numbers::invalid_coarse_cell_id;
+    return types::coarse_cell_id(columns[index / n_rows]) * n_rows + index % n_rows;
+  }
+
   const unsigned int n_rows;
+  const Shares shares;
+  const std::vector<View> views;        ///< of each column
+  std::vector<unsigned int> columns;    ///< those in view
   std::vector<unsigned int> first_cell; ///< its index, for each column
 };
 
@@ -124,11 +137,7 @@ private:
 std::unique_ptr<Triangulation<2>> make_strip_mesh(const std::vector<double>& radii,
                                                   const std::vector<double>& angles,
                                                   MPI_Comm communicator) {
-  const Shares shares = {angles.size() - 1, count_processes(communicator)};
-  const std::vector<View> views = views_of(process_number(communicator), shares);
-  auto mesh = std::make_unique<StripMesh>(radii.size() - 1, views, communicator);
-  mesh->create_triangulation(describe(radii, angles, shares, views, communicator));
-  return mesh;
+  return std::make_unique<StripMesh>(radii, angles, communicator);
 }
 
 } // namespace rollwave

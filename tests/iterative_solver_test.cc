@@ -113,6 +113,25 @@ TEST(Iterative, SolvesUzawasProblems) {
   }
 }
 
+TEST(Iterative, CertifiesWhatTheDirectKindDoes) {
+  // A spot beside the seam: hanging nodes lie on it, which both problems tie in their own ways.
+  for (const auto* cycles : {"0", "5"})
+    for (const auto* degree : {"1", "2", "3", "4"}) {
+      SCOPED_TRACE(std::string("degree ") + degree + ", cycles " + cycles);
+      const auto certified = [&](const std::string& kind) {
+        const Parameters own = parameters_of(
+            {std::string("Mesh/Degree=") + degree, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
+             std::string("Mesh/Adaptive cycles=") + cycles, "Solver/Kind=" + kind,
+             "Cylinder/Radial force=if((r-0.8)^2+(z-1.6)^2<0.02,3,0)"});
+        return *simulate(make_scene(own), own).result.certified;
+      };
+      const CertifiedError direct = certified("direct"), iterative = certified("iterative");
+      EXPECT_NEAR(iterative.energy_norm, direct.energy_norm, 1e-8 * direct.energy_norm);
+      EXPECT_NEAR(iterative.lower_bound, direct.lower_bound, 1e-9 * std::abs(direct.lower_bound));
+      EXPECT_NEAR(iterative.upper_bound, direct.upper_bound, 1e-9 * std::abs(direct.upper_bound));
+    }
+}
+
 /// Both kinds of solver for one matrix, with a force and hanging nodes.
 class Kinds : public testing::Test {
 protected:
