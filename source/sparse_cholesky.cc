@@ -4,11 +4,22 @@
 #include "memory.h"
 
 #include <cholmod.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
+
+/**
+ * OpenMP's parallel regions, as GCC compiles them, call this function (manual of libgomp,
+ * "Implementing PARALLEL construct"). Here it stands before that of libgomp and leaves the @p
+ * region to the calling thread. CHOLMOD, which alone of what is used here calls it, enters a region
+ * for each of the small blocks that it adds to another, and libgomp makes a team each time, even of
+ * one thread: that took two fifths of a factorisation.
+ */
+extern "C" void GOMP_parallel(void (*region)(void*), void* data, unsigned int /*n_threads*/,
+                              unsigned int /*flags*/) {
+  region(data);
+}
 
 namespace rollwave {
 
@@ -138,29 +149,11 @@ bool SparseCholesky::set_matrix(const LowerTriplets& triplets) {
 
 SparseCholesky::~SparseCholesky() = default;
 
-namespace {
-
-/// Makes parallel regions of OpenMP run on one thread while it lives. CHOLMOD asks for four in each
-/// supernode, besides the threads of BLAS, and on few cores waits longer for them than they save.
-class OneThread {
-public:
-  OneThread() { omp_set_max_active_levels(0); }
-  ~OneThread() { omp_set_max_active_levels(levels); }
-  OneThread(const OneThread&) = delete;
-  OneThread& operator=(const OneThread&) = delete;
-
-private:
-  const int levels = omp_get_max_active_levels();
-};
-
-} // namespace
-
 void SparseCholesky::factorise() {
   // Mesh, assembly and ordering leave much free memory behind, in pieces that a large factor does
   // not fit.
   cholmod_free_work(&cholmod->common);
   cholmod->release();
-  const OneThread one_thread;
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod_free_work(&cholmod->common);
   cholmod->release();

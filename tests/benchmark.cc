@@ -13,7 +13,6 @@
 #include <deal.II/base/timer.h>
 
 #include <cholmod.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -140,8 +139,7 @@ void benchmark_errors(const PaperScene& paper, const char* mesh,
 } // namespace
 
 int main() {
-  // As the program does: CHOLMOD without OpenMP's threads, and BLAS without its own.
-  omp_set_max_active_levels(0);
+  // As the program does.
   const BlasOnOneThread blas;
   std::printf(
       "Medians of 5 runs; seconds without assembly.\n"
