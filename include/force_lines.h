@@ -13,22 +13,24 @@ namespace rollwave {
  * Lines z = const of an angular interval [begin, end] at the points of a rule for integrals over it
  * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square, at some radii.
  *
- * That rule is Gauss' one, which takes G for the polynomial G_h along z that equals it at the
- * points, where a bound of what it misses, G - G_h, is negligible. Else it is exact: Gauss' rules
- * with 8 points between the ends of panels, where G may jump, and with 3 on parts so short that
- * they add nothing but that.
+ * That rule is the Gauss rule of the cell, or one with more points, which takes G for the
+ * polynomial G_h along z that equals it at the points, where a bound of what it misses, G - G_h, is
+ * negligible. Else it is exact: Gauss' rules with 8 points between the ends of panels, where G may
+ * jump, and with 3 on parts so short that they add nothing but that.
  */
 struct ForceLines {
+  /// @param gauss the rule of the cell and, as far as there are any, those with more points, each
+  /// with the one that is exact where no panel ends
   /// @param negligible root mean square of G - G_h over z, for any of the radii
-  /// @param within_panel Gauss' rule, and one that is exact where no panel ends
-  ForceLines(const ForceInterpolant& force, double begin, double end, const FinerRule& within_panel,
-             double negligible, const RadialExtent& radii);
+  ForceLines(const ForceInterpolant& force, double begin, double end,
+             const std::vector<FinerRule>& gauss, double negligible, const RadialExtent& radii);
 
-  bool is_exact() const { return !ends.empty(); }
+  /// Whether the rule is the cell's.
+  bool has_rule_of_cell() const { return ends.empty(); }
 
   dealii::Quadrature<1> rule;       ///< on [0, 1]
   std::vector<ForceColumn> columns; ///< at its points
-  std::vector<double> ends;         ///< 0, those of panels and 1, if the rule is exact
+  std::vector<double> ends;         ///< 0, those of panels and 1, if the rule is not the cell's
   /// A bound of the mean over z of (G - G_h)^2, for any of the radii.
   double missed_mean_square = 0;
 };

@@ -123,8 +123,10 @@ public:
     }
   }
 
-  /// The lines of a force whose rule along z is not that of the element; nullptr without them.
-  const ForceLines* exact_lines() const { return lines && lines->is_exact() ? lines : nullptr; }
+  /// The lines of a force whose rule along z is not that of the cell; nullptr without them.
+  const ForceLines* own_lines() const {
+    return lines && !lines->has_rule_of_cell() ? lines : nullptr;
+  }
 
   /// G at the radii of the rule, on the line number @p p of the rule along z and on any line of the
   /// cell; nullptr without force.
@@ -248,10 +250,10 @@ private:
 };
 
 /// The ends of a piece of an edge, and those of panels in between.
-std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const ForceLines* exact) {
+std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const ForceLines* own) {
   std::vector<double> ends = {piece.t_begin};
-  if (exact)
-    for (const double t : exact->ends)
+  if (own)
+    for (const double t : own->ends)
       if (piece.t_begin < t && t < piece.t_end)
         ends.push_back(t);
   ends.push_back(piece.t_end);
@@ -294,7 +296,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     system.bubbles.reset();
   Integrator integrator(space, displacement, potential, bubbles, dual.shapes, columns, dual.jumps);
   const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
-  IntervalMap<std::vector<AngularShapes>> exact_shapes;
+  IntervalMap<std::vector<AngularShapes>> own_shapes;
   std::vector<double> cell_bounds(triangulation.n_active_cells());
   Sums total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -306,12 +308,12 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
     double contact_work = 0;
     const auto face =
         integrator.ends_at(scene.outer_radius) ? space.surface_face(cell) : std::nullopt;
-    const ForceLines* const exact = integrator.exact_lines();
+    const ForceLines* const own = integrator.own_lines();
     if (!face) {
-      const Quadrature<1>& rule = exact ? exact->rule : gauss;
-      const auto& lines = exact ? exact_shapes.at(cell->vertex(0)[1], cell->vertex(3)[1],
-                                                  [&] { return integrator.angular_shapes(rule); })
-                                : shapes_of_gauss;
+      const Quadrature<1>& rule = own ? own->rule : gauss;
+      const auto& lines = own ? own_shapes.at(cell->vertex(0)[1], cell->vertex(3)[1],
+                                              [&] { return integrator.angular_shapes(rule); })
+                              : shapes_of_gauss;
       for (unsigned int p = 0; p < rule.size(); ++p)
         sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.moments_on(p)),
                  rule.weight(p) * length);
@@ -319,7 +321,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
         sums.bound_squared += integrator.unseen_square();
     } else
       for (const auto& piece : trace.pieces(*face)) {
-        const std::vector<double> ends = ends_of_parts(piece, exact);
+        const std::vector<double> ends = ends_of_parts(piece, own);
         for (unsigned int part = 0; part + 1 < ends.size(); ++part)
           for (unsigned int p = 0; p < along_road.size(); ++p) {
             const double share = ends[part + 1] - ends[part];

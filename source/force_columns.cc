@@ -16,17 +16,20 @@ ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
                            const QGauss<1>& gauss, const RadialExtents& extents,
                            const ForceJumps& jumps)
     : force(force), extents(extents), jumps(jumps),
-      within_panel(gauss,
-                   QGauss<1>(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()))),
       // of (int w^2 / r dr dz)^(1/2) over the ring
       negligible(
           force.negligible() /
-          std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {}
+          std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {
+  const QGauss<1> fine(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()));
+  this->gauss.emplace_back(gauss, fine);
+  for (unsigned int n = gauss.size() + 1; n < fine.size(); ++n)
+    this->gauss.emplace_back(QGauss<1>(n), fine);
+}
 
 const ForceLines& ForceColumns::on(double begin, double end) {
   return lines.at(begin, end, [&] {
-    return ForceLines(force, begin, end, within_panel,
-                      jumps.within(begin, end).empty() ? negligible : 0, extents.of(begin, end));
+    return ForceLines(force, begin, end, gauss, jumps.within(begin, end).empty() ? negligible : 0,
+                      extents.of(begin, end));
   });
 }
 

@@ -49,7 +49,7 @@ ForceContribution::ForceContribution(const RingSpace& space,
   const auto lagrange = lobatto_lagrange(degree);
   const auto bubble_mode = AngularBubbles::mode(degree);
   std::optional<WeightedShapes> of_gauss;
-  IntervalMap<WeightedShapes> of_exact_rules;
+  IntervalMap<WeightedShapes> of_other_rules;
   MissedMoment moment(shapes);
   to_bubbles.resize(n * space.dof_handler().get_triangulation().n_active_cells());
   LexicographicDofs dofs(space.dof_handler());
@@ -62,10 +62,10 @@ ForceContribution::ForceContribution(const RingSpace& space,
     const RadialShapes& radial = shapes.on(low[0], high[0]);
     const ForceLines& lines = columns.on(low[1], high[1]);
     const auto make_shapes = [&] { return WeightedShapes(lagrange, bubble_mode, lines.rule); };
-    if (!lines.is_exact() && !of_gauss)
+    if (lines.has_rule_of_cell() && !of_gauss)
       of_gauss = make_shapes();
     const auto& [value, slope, bubble, mode] =
-        lines.is_exact() ? of_exact_rules.at(low[1], high[1], make_shapes) : *of_gauss;
+        lines.has_rule_of_cell() ? *of_gauss : of_other_rules.at(low[1], high[1], make_shapes);
     ForceLoads& force_loads = columns.loads(low[0], high[0], radial);
     double* const to_bubble = &to_bubbles[n * cell->active_cell_index()];
     const auto kinks = kinks_of_cell(jumps, low, high, degree);

@@ -71,34 +71,43 @@ std::vector<double> all_radii(const std::vector<ForceColumn>& columns,
 } // namespace
 
 ForceLines::ForceLines(const ForceInterpolant& force, double begin, double end,
-                       const FinerRule& within_panel, double negligible, const RadialExtent& radii)
-    : rule(within_panel.rule), columns(force.columns(begin, end, rule, radii)), ends({0}) {
+                       const std::vector<FinerRule>& gauss, double negligible,
+                       const RadialExtent& radii)
+    : ends({0}) {
   for (const double z : force.panel_ends(begin, end, radii.begin))
     ends.push_back((z - begin) / (end - begin));
   ends.push_back(1);
-  const bool is_on_one_panel = ends.size() == 2;
-  Quadrature<1> exact;
-  std::vector<ForceColumn> exact_columns;
-  const auto make_exact = [&] {
-    exact = rule_between(ends, within_panel.fine);
-    exact_columns = force.columns(begin, end, exact, radii);
-  };
-  double missed;
-  if (is_on_one_panel)
-    missed = force.missed_along_z(begin, end, within_panel, radii);
-  else {
-    make_exact();
-    missed = missed_along_z(exact, exact_columns, rule, columns, radii);
-  }
-  if (missed <= negligible) {
+  const Quadrature<1>& of_cell = gauss.front().rule;
+  const auto take = [&](const Quadrature<1>& some, std::vector<ForceColumn> on_some,
+                        double missed) {
+    rule = some;
+    columns = std::move(on_some);
     missed_mean_square = missed * missed;
-    ends.clear();
-    return;
+    if (&some == &of_cell)
+      ends.clear();
+  };
+  const auto columns_on = [&](const Quadrature<1>& some) {
+    return force.columns(begin, end, some, radii);
+  };
+  if (ends.size() == 2)
+    for (const FinerRule& some : gauss) {
+      const double missed = force.missed_along_z(begin, end, some, radii);
+      if (missed <= negligible) {
+        take(some.rule, columns_on(some.rule), missed);
+        return;
+      }
+    }
+  const Quadrature<1> exact = rule_between(ends, gauss.front().fine);
+  std::vector<ForceColumn> on_exact = columns_on(exact);
+  if (ends.size() > 2) {
+    std::vector<ForceColumn> on_cell = columns_on(of_cell);
+    const double missed = rollwave::missed_along_z(exact, on_exact, of_cell, on_cell, radii);
+    if (missed <= negligible) {
+      take(of_cell, std::move(on_cell), missed);
+      return;
+    }
   }
-  if (is_on_one_panel)
-    make_exact();
-  rule = exact;
-  columns = std::move(exact_columns);
+  take(exact, std::move(on_exact), 0);
 }
 
 double missed_along_z(const Quadrature<1>& rule, const std::vector<ForceColumn>& columns,

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -166,14 +167,14 @@ TEST(ForceInterpolant, TellsItsErrorAtKinksAndJumps) {
 
 TEST(ForceLines, BoundWhatARuleMissesAlongZ) {
   const dealii::QGauss<1> gauss(3);
-  const FinerRule within_panel(gauss, dealii::QGauss<1>(8));
+  const std::vector<FinerRule> rules = {FinerRule(gauss, dealii::QGauss<1>(8))};
   unsigned int n_bounded = 0;
   for (const char* expression : {"r^2*z^2", "sin(9*z)*exp(r)", "r^3*z^7-z^5", "if(z<3.12,1,-1)",
                                  "if(r<0.8+0.1*sin(z),1,0)"}) {
     const Force force(expression, 6, 72);
     for (const double begin : {0., 0.4, 3.1, 5.7})
       for (const double length : {0.01, 0.08, 0.5}) {
-        const ForceLines lines(force.interpolant, begin, begin + length, within_panel, 1e100, {});
+        const ForceLines lines(force.interpolant, begin, begin + length, rules, 1e100, {});
         const double bound = std::sqrt(lines.missed_mean_square);
         EXPECT_EQ(lines.rule.size(), gauss.size());
         for (const double r : {a, 0.6, 0.79, 0.95}) {
@@ -191,10 +192,43 @@ TEST(ForceLines, BoundWhatARuleMissesAlongZ) {
   EXPECT_GT(n_bounded, 50u);
 }
 
+TEST(ForceLines, TakeNoMorePointsThanAreNeeded) {
+  std::vector<FinerRule> rules;
+  for (unsigned int n = 3; n < 8; ++n)
+    rules.emplace_back(dealii::QGauss<1>(n), dealii::QGauss<1>(8));
+  const Force force("sin(9*z)*exp(r)", 6, 72);
+  std::set<unsigned int> sizes;
+  for (const double begin : {0.4, 3.1, 5.7})
+    for (const double length : {0.01, 0.08}) {
+      unsigned int before = 3;
+      for (double negligible = 1e-2; negligible > 1e-12; negligible /= 10) {
+        const ForceLines lines(force.interpolant, begin, begin + length, rules, negligible, {});
+        const unsigned int n = lines.rule.size();
+        EXPECT_GE(n, before);
+        EXPECT_EQ(lines.has_rule_of_cell(), n == 3);
+        EXPECT_LE(std::sqrt(lines.missed_mean_square), negligible);
+        if (n < 8)
+          for (const double r : {a, 0.79}) {
+            EXPECT_LE(missed_along_z(force.interpolant, dealii::QGauss<1>(n), begin, length, r),
+                      1.1 * negligible + 1e-12);
+          }
+        if (n > 3 && n < 8) {
+          // With a point less the bound would not do.
+          const std::vector<FinerRule> less = {rules[n - 4]};
+          EXPECT_GT(ForceLines(force.interpolant, begin, begin + length, less, 1e100, {})
+                        .missed_mean_square,
+                    negligible * negligible);
+        }
+        sizes.insert(before = n);
+      }
+    }
+  EXPECT_GE(sizes.size(), 4u);
+}
+
 // Where cells with an angular interval are few, the lines there are known at their radii only.
 TEST(ForceLines, ServeTheRadiiOfTheirCells) {
   const dealii::QGauss<1> gauss(3);
-  const FinerRule within_panel(gauss, dealii::QGauss<1>(8));
+  const std::vector<FinerRule> rules = {FinerRule(gauss, dealii::QGauss<1>(8))};
   for (const char* expression : {"abs(r-0.7123)", "if(r<0.8+0.1*sin(z),1,0)"}) {
     const Parameters parameters =
         with(paper_scenes()[0].parameters(),
@@ -211,8 +245,8 @@ TEST(ForceLines, ServeTheRadiiOfTheirCells) {
       const double length = high[1] - low[1];
       const RadialExtent radii = extents.of(low[1], high[1]);
       ASSERT_TRUE(radii.begin <= low[0] && high[0] <= radii.end);
-      const ForceLines any(force, low[1], high[1], within_panel, 1e100, radii),
-          exact(force, low[1], high[1], within_panel, 0, radii);
+      const ForceLines any(force, low[1], high[1], rules, 1e100, radii),
+          exact(force, low[1], high[1], rules, 0, radii);
       for (const double r : {low[0], (low[0] + high[0]) / 2, high[0]}) {
         for (const ForceLines* lines : {&any, &exact})
           for (unsigned int p = 0; p < lines->columns.size(); p += 3) {
@@ -230,10 +264,10 @@ TEST(ForceLines, ServeTheRadiiOfTheirCells) {
 }
 
 TEST(ForceLines, IntegrateWhatJumpsAlongZ) {
-  const FinerRule within_panel(dealii::QGauss<1>(3), dealii::QGauss<1>(8));
+  const std::vector<FinerRule> rules = {FinerRule(dealii::QGauss<1>(3), dealii::QGauss<1>(8))};
   const Force force("if(z<3.12,1,-1)+r*z", 8, 720);
-  const ForceLines lines(force.interpolant, 3.1, 3.2, within_panel, 1e-9, {});
-  ASSERT_TRUE(lines.is_exact());
+  const ForceLines lines(force.interpolant, 3.1, 3.2, rules, 1e-9, {});
+  ASSERT_FALSE(lines.has_rule_of_cell());
   EXPECT_EQ(lines.missed_mean_square, 0);
   // int G dz and int G^2 dz at the hub, G = c + d z beside the jump
   double integral = 0, square = 0;
