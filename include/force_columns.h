@@ -44,8 +44,8 @@ private:
   const ForceInterpolant& force;
   const RadialExtents& extents;
   const ForceJumps& jumps;
-  std::vector<FinerRule> gauss; ///< of the cells, and with more points
-  const double negligible;      ///< root mean square over z of what is missed of G
+  const std::vector<FinerRule> gauss; ///< of the cells, and with more points
+  const double negligible;            ///< root mean square over z of what is missed of G
   IntervalMap<ForceLines> lines;
   IntervalMap<ForceAtRadii> known_radii;
   IntervalMap<ForceLoads> known_loads;

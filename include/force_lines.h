@@ -13,14 +13,15 @@ namespace rollwave {
  * Lines z = const of an angular interval [begin, end] at the points of a rule for integrals over it
  * of G = int_r^b rho f_0 drho (ForceInterpolant), and of its square, at some radii.
  *
- * That rule is the Gauss rule of the cell, or one with more points, which takes G for the
- * polynomial G_h along z that equals it at the points, where a bound of what it misses, G - G_h, is
- * negligible. Else it is exact: Gauss' rules with 8 points between the ends of panels, where G may
- * jump, and with 3 on parts so short that they add nothing but that.
+ * That rule is the Gauss rule of the cell or, where no panel ends in the interval, one with more
+ * points, which takes G for the polynomial G_h along z that equals it at the points, where a bound
+ * of what it misses, G - G_h, is negligible. Else it is exact: Gauss' rules with 8 points between
+ * the ends of panels, where G may jump, and with 3 on parts so short that they add nothing but
+ * that.
  */
 struct ForceLines {
-  /// @param gauss the rule of the cell and, as far as there are any, those with more points, each
-  /// with the one that is exact where no panel ends
+  /// @param gauss the rule of the cell and, as far as there are any, those with more points, for
+  /// intervals in which no panel ends; each with the one that is exact there
   /// @param negligible root mean square of G - G_h over z, for any of the radii
   ForceLines(const ForceInterpolant& force, double begin, double end,
              const std::vector<FinerRule>& gauss, double negligible, const RadialExtent& radii);

@@ -1,18 +1,14 @@
 #ifndef ROLLWAVE_MATRIX_PATTERN_H
 #define ROLLWAVE_MATRIX_PATTERN_H
 
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/lac/affine_constraints.h>
+
 #include <memory>
 
-namespace dealii {
-class IndexSet;
-template <typename number>
-class AffineConstraints;
-template <int dim, int spacedim>
-class DoFHandler;
-namespace TrilinosWrappers {
+namespace dealii::TrilinosWrappers {
 class SparsityPattern;
 }
-} // namespace dealii
 
 namespace rollwave {
 
@@ -22,7 +18,7 @@ namespace rollwave {
  * and of the cells next to them.
  */
 std::unique_ptr<dealii::TrilinosWrappers::SparsityPattern>
-make_matrix_pattern(const dealii::DoFHandler<2, 2>& handler,
+make_matrix_pattern(const dealii::DoFHandler<2>& handler,
                     const dealii::AffineConstraints<double>& constraints,
                     const dealii::IndexSet& relevant);
 

@@ -1,14 +1,9 @@
 #ifndef ROLLWAVE_RING_MESH_H
 #define ROLLWAVE_RING_MESH_H
 
-#include <mpi.h>
+#include <deal.II/grid/tria.h>
 
 #include <memory>
-
-namespace dealii {
-template <int dim, int spacedim>
-class Triangulation;
-}
 
 namespace rollwave {
 
@@ -33,7 +28,7 @@ void check_mesh_size(const Parameters& parameters);
  *
  * @throws BadInput as check_mesh_size(), NotEnoughMemory.
  */
-std::unique_ptr<dealii::Triangulation<2, 2>>
+std::unique_ptr<dealii::Triangulation<2>>
 make_ring_mesh(const Scene& scene, const Parameters& parameters, MPI_Comm communicator);
 
 } // namespace rollwave

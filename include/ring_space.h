@@ -54,6 +54,8 @@ public:
   /// @throws BadInput when no node of the mesh lies in the contact zone.
   RingSpace(const dealii::Triangulation<2>& triangulation, const Scene& scene, unsigned int degree);
 
+  ~RingSpace();
+
   const dealii::DoFHandler<2>& dof_handler() const { return handler; }
   const dealii::AffineConstraints<double>& constraints() const { return affine_constraints; }
 
@@ -106,9 +108,10 @@ public:
   /// one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
-  /// make_matrix_pattern() for all processes, once MPI has been started. Without hanging nodes all
-  /// matrices share one: constraints then differ on hub and surface only.
-  std::shared_ptr<const dealii::TrilinosWrappers::SparsityPattern>
+  /// make_matrix_pattern() for all processes, once MPI has been started, until it is asked for
+  /// again; by one thread at a time. Without hanging nodes all matrices share one.
+  /// @param constraints without hanging nodes those of constraints(), or others on hub and surface
+  const dealii::TrilinosWrappers::SparsityPattern&
   matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
@@ -141,8 +144,7 @@ private:
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   mutable std::once_flag is_ordered;
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
-  mutable std::shared_ptr<const dealii::TrilinosWrappers::SparsityPattern>
-      pattern; ///< likewise, without hanging nodes
+  mutable std::unique_ptr<const dealii::TrilinosWrappers::SparsityPattern> pattern; ///< likewise
 };
 
 } // namespace rollwave

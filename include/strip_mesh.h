@@ -1,15 +1,10 @@
 #ifndef ROLLWAVE_STRIP_MESH_H
 #define ROLLWAVE_STRIP_MESH_H
 
-#include <mpi.h>
+#include <deal.II/grid/tria.h>
 
 #include <memory>
 #include <vector>
-
-namespace dealii {
-template <int dim, int spacedim>
-class Triangulation;
-}
 
 namespace rollwave {
 
@@ -19,9 +14,9 @@ namespace rollwave {
  * periodic yet, and cannot be refined. Rows and columns are numbered one after another, columns
  * last: assembly and multigrid run faster through memory than in the order of p4est's cells.
  */
-std::unique_ptr<dealii::Triangulation<2, 2>> make_strip_mesh(const std::vector<double>& radii,
-                                                             const std::vector<double>& angles,
-                                                             MPI_Comm communicator);
+std::unique_ptr<dealii::Triangulation<2>> make_strip_mesh(const std::vector<double>& radii,
+                                                          const std::vector<double>& angles,
+                                                          MPI_Comm communicator);
 
 } // namespace rollwave
 

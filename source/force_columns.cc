@@ -12,19 +12,27 @@ namespace rollwave {
 
 using namespace dealii;
 
+namespace {
+
+/// The rule and those with more points, each with the one that is exact where no panel ends.
+std::vector<FinerRule> rules_from(const QGauss<1>& gauss) {
+  const QGauss<1> fine(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()));
+  std::vector<FinerRule> rules = {{gauss, fine}};
+  for (unsigned int n = gauss.size() + 1; n < fine.size(); ++n)
+    rules.emplace_back(QGauss<1>(n), fine);
+  return rules;
+}
+
+} // namespace
+
 ForceColumns::ForceColumns(const Scene& scene, const ForceInterpolant& force,
                            const QGauss<1>& gauss, const RadialExtents& extents,
                            const ForceJumps& jumps)
-    : force(force), extents(extents), jumps(jumps),
+    : force(force), extents(extents), jumps(jumps), gauss(rules_from(gauss)),
       // of (int w^2 / r dr dz)^(1/2) over the ring
       negligible(
           force.negligible() /
-          std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {
-  const QGauss<1> fine(std::max<unsigned int>(ForcePiece::n_coefficients, gauss.size()));
-  this->gauss.emplace_back(gauss, fine);
-  for (unsigned int n = gauss.size() + 1; n < fine.size(); ++n)
-    this->gauss.emplace_back(QGauss<1>(n), fine);
-}
+          std::sqrt(2 * numbers::PI * log_of_ratio(scene.outer_radius, scene.inner_radius))) {}
 
 const ForceLines& ForceColumns::on(double begin, double end) {
   return lines.at(begin, end, [&] {

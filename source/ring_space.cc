@@ -11,6 +11,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   handler.distribute_dofs(element);
 
   relevant = DoFTools::extract_locally_relevant_dofs(handler);
-  affine_constraints.copy_from(ties(handler));
+  affine_constraints = ties(handler);
   VectorTools::interpolate_boundary_values(cartesian, handler, hub_id, Functions::ZeroFunction<2>(),
                                            affine_constraints);
   affine_constraints.close();
@@ -61,6 +62,8 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   find_surface_nodes(scene);
   look_over_cells();
 }
+
+RingSpace::~RingSpace() = default;
 
 void RingSpace::look_over_cells() {
   double least = std::numeric_limits<double>::max(), largest = 0;
@@ -182,16 +185,16 @@ const std::vector<types::global_dof_index>& RingSpace::elimination_order() const
   return order;
 }
 
-std::shared_ptr<const TrilinosWrappers::SparsityPattern>
+const TrilinosWrappers::SparsityPattern&
 RingSpace::matrix_pattern(const AffineConstraints<double>& constraints) const {
-  if (handler.get_triangulation().has_hanging_nodes())
-    return make_matrix_pattern(handler, constraints, relevant);
-  if (!pattern) {
+  if (handler.get_triangulation().has_hanging_nodes()) {
+    pattern = make_matrix_pattern(handler, constraints, relevant);
+  } else if (!pattern) {
     AffineConstraints<double> seam = ties(handler);
     seam.close();
     pattern = make_matrix_pattern(handler, seam, relevant);
   }
-  return pattern;
+  return *pattern;
 }
 
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {

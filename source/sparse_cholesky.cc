@@ -10,15 +10,26 @@
 #include <utility>
 
 /**
- * OpenMP's parallel regions, as GCC compiles them, call this function (manual of libgomp,
+ * OpenMP's parallel regions, as GCC compiles them, call GOMP_parallel (manual of libgomp,
  * "Implementing PARALLEL construct"). Here it stands before that of libgomp and leaves the @p
- * region to the calling thread. CHOLMOD, which alone of what is used here calls it, enters a region
- * for each of the small blocks that it adds to another, and libgomp makes a team each time, even of
- * one thread: that took two fifths of a factorisation.
+ * region to the calling thread. CHOLMOD enters one for each of the small blocks that it adds to
+ * another, and libgomp would make a team each time, even of one thread: two fifths of a
+ * factorisation. A CHOLMOD that clang has compiled does not call it.
+ *
+ * No team of OpenMP may be active around a call. An OpenBLAS with OpenMP, whose threads would wait
+ * for each other, asks omp_get_max_threads and enters no region then; nothing else that Rollwave
+ * uses has any.
  */
-extern "C" void GOMP_parallel(void (*region)(void*), void* data, unsigned int /*n_threads*/,
-                              unsigned int /*flags*/) {
+extern "C" {
+__attribute__((visibility("default"))) void GOMP_parallel(void (*region)(void*), void* data,
+                                                          unsigned int /*n_threads*/,
+                                                          unsigned int /*flags*/) {
   region(data);
+}
+
+__attribute__((visibility("default"))) int omp_get_max_threads() {
+  return 1;
+}
 }
 
 namespace rollwave {

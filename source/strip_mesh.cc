@@ -59,6 +59,7 @@ public:
     }
     create_cells(radii, angles);
     hand_out();
+    // That of deal.II's class is private, and adds to this one's the number of coarse cells only.
     parallel::TriangulationBase<2>::update_number_cache();
     number_cache.number_of_global_coarse_cells = types::coarse_cell_id(n_rows) * views.size();
   }
@@ -116,7 +117,9 @@ private:
   }
 
   unsigned int coarse_cell_id_to_coarse_cell_index(types::coarse_cell_id id) const override {
-    return first_cell[id / n_rows] + id % n_rows;
+    const unsigned int column = id / n_rows;
+    return views[column] == View::none ? numbers::invalid_unsigned_int
+                                       : first_cell[column] + id % n_rows;
   }
 
   types::coarse_cell_id coarse_cell_index_to_coarse_cell_id(unsigned int index) const override {
