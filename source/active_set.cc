@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace rollwave {
@@ -56,6 +57,23 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
   return step;
 }
 
+/// The set that is nearer to the solution than @p next, which nodes of the wrong sign have left or
+/// entered: the ends have leapt, and the other nodes are relaxed where the solver can.
+std::vector<bool> predict(const StiffnessSolver& solver, const ContactProblem& problem,
+                          const ContactSolution& solution, const std::vector<bool>& next) {
+  std::vector<bool> predicted = next;
+  move_ends(problem, solution, predicted);
+  Vector<double> limit = problem.road;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    if (next[i] && !predicted[i])
+      limit(i) = std::numeric_limits<double>::infinity();
+  ContactState relaxed = solution.state;
+  if (solver.relax(limit, relaxed))
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
+  return predicted == solution.active ? next : predicted;
+}
+
 /// Undoes all changes from @p active to @p next but the first.
 void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next) {
   const auto first = std::mismatch(active.begin(), active.end(), next.begin()).first;
@@ -73,7 +91,7 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
 
-  enum class Change { leaping, by_sign, one_by_one } change = Change::leaping;
+  enum class Change { predicted, by_sign, one_by_one } change = Change::predicted;
   std::set<std::vector<bool>> visited;
   double accuracy = loose_accuracy;
   for (;;) {
@@ -108,7 +126,7 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
         solution.history.pop_back();
         continue;
       }
-      change = change == Change::leaping ? Change::by_sign : Change::one_by_one;
+      change = change == Change::predicted ? Change::by_sign : Change::one_by_one;
       solution.remark =
           change == Change::by_sign
               ? "the active set repeated itself; from then on it changed by sign alone"
@@ -116,8 +134,8 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
                 "time";
       visited = {solution.active};
     }
-    if (change == Change::leaping)
-      move_ends(problem, solution, next);
+    if (change == Change::predicted)
+      next = predict(solver, problem, solution, next);
     else if (change == Change::one_by_one)
       keep_first_change(solution.active, next);
     step.changed = count_changes(solution.active, next);

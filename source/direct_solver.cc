@@ -104,6 +104,13 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
   return 0;
 }
 
+bool DirectSolver::relax(const Vector<double>& limit, ContactState& state) const {
+  Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
+  schur->relax(contact_load, to_places(limit), displacement, force);
+  state = {from_places(displacement), from_places(force)};
+  return true;
+}
+
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(*work, "back-substitution");
   std::vector<double> rhs = reduced_load;

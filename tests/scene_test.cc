@@ -104,6 +104,21 @@ TEST(ActiveSetSteps, AreFewOnFineMeshes) {
     }
 }
 
+TEST(ActiveSetSteps, AreFourAtMostOnRefinedMeshesUnderForcesTheyDoNotResolve) {
+  for (const std::string force : {"60*sin(150*z)", "100*sin(300*z+20*r)", "20*cos(200*z)"})
+    for (const std::string degree : {"1", "2"}) {
+      const Result result =
+          solve(with(paper_scenes()[0].parameters(),
+                     {"Cylinder/Radial force=" + force, "Mesh/Degree=" + degree,
+                      "Mesh/Radial cells=3", "Mesh/Angular cells=38", "Mesh/Adaptive cycles=6"}));
+      ASSERT_EQ(result.cycles.size(), 7u);
+      for (unsigned int cycle = 1; cycle < 7; ++cycle)
+        EXPECT_LE(result.cycles[cycle].contact_steps, 4u) << force << ", mesh " << cycle;
+      EXPECT_LT(result.residuals.penetration, 1e-11);
+      EXPECT_LT(result.residuals.negative_pressure, 1e-11);
+    }
+}
+
 TEST(ActiveSetSteps, AreFewOnStretchedCells) {
   // Long in r, the cells make the surface answer like a membrane, where signs alone would move each
   // end by one node in a step; long in z, they leave a handful of nodes.
