@@ -15,9 +15,10 @@ namespace rollwave {
  *
  * These signs alone move an end of contact by a fraction of its error, and by a single node where
  * cells are much longer in r than in z. So the ends leap (move_ends()): how far the pressure or the
- * gap has the wrong sign tells where the end belongs. Where signs differ from node to node, they
- * change too many at a time, since what one node takes over relieves the next. So the set that
- * they and the leaps suggest is relaxed first where that is cheap (StiffnessSolver::relax()).
+ * gap has the wrong sign tells where the end belongs. Where contact is torn into stretches, signs
+ * change too many nodes at a time, since what one takes over relieves the next. So the set that
+ * they and the leaps suggest is relaxed before it is pinned, where that is cheap
+ * (StiffnessSolver::relax()), and also if three steps have not sufficed.
  *
  * A set seen before would begin a cycle. From then on nodes change by sign alone; after a second
  * repetition only the first node of the wrong sign changes in each step, the least-index rule,

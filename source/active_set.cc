@@ -57,12 +57,23 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
   return step;
 }
 
+/// Whether contact is more than one stretch.
+bool is_torn(const std::vector<bool>& active) {
+  unsigned int ends = 0;
+  for (unsigned int i = 0; i + 1 < active.size(); ++i)
+    ends += active[i] != active[i + 1];
+  return ends > 2;
+}
+
 /// The set that is nearer to the solution than @p next, which nodes of the wrong sign have left or
-/// entered: the ends have leapt, and the other nodes are relaxed where the solver can.
+/// entered: the ends have leapt. Where contact is torn, or has not been found by leaps in three
+/// steps, the other nodes are relaxed if the solver can.
 std::vector<bool> predict(const StiffnessSolver& solver, const ContactProblem& problem,
                           const ContactSolution& solution, const std::vector<bool>& next) {
   std::vector<bool> predicted = next;
   move_ends(problem, solution, predicted);
+  if (!is_torn(solution.active) && !is_torn(next) && solution.history.size() < 3)
+    return predicted;
   Vector<double> limit = problem.road;
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (next[i] && !predicted[i])
