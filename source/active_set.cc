@@ -57,7 +57,7 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
   return step;
 }
 
-/// Whether contact is more than one stretch.
+/// Whether contact has more than two ends within the zone.
 bool is_torn(const std::vector<bool>& active) {
   unsigned int ends = 0;
   for (unsigned int i = 0; i + 1 < active.size(); ++i)
