@@ -13,12 +13,12 @@ class Work;
 /// Makes the dual parts of @p system that the certificates of all solutions of a scene have in
 /// common, unless it has them: the matrix of the potential and what belongs to the force, of which
 /// neither knows the other. Of the parts that are there already it looks at the load only, so that
-/// it may run while the scene is solved.
+/// it may run while the scene is solved. A force that is no number takes long to look at, in a
+/// thread of its own where that gains time.
 /// @param kind that of the potential's solver
-/// @param in_threads whether the one is made while the other is looked at
 /// @throws BadInput where the force is not finite, NotSolved when memory is short
 void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         bool in_threads, MeshSystem& system, Work& work);
+                         MeshSystem& system, Work& work);
 
 /// Whether it has nothing to do.
 bool is_certificate_prepared(const Scene& scene, const MeshSystem& system);

@@ -11,7 +11,6 @@
 #include "parameters.h"
 #include "potential_kinks.h"
 #include "scene.h"
-#include "task_beside.h"
 #include "work.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -267,10 +266,7 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
                     Work& work) {
   const Work::Phase phase(work, "certificate");
   const unsigned int degree = space.dof_handler().get_fe().degree;
-  const SolverKind kind = system.stiffness.kind;
-  const bool is_long = scene.has_uneven_force(); // to look at
-  prepare_certificate(space, scene, kind,
-                      is_long && kind != SolverKind::iterative && gains_by_threads(), system, work);
+  prepare_certificate(space, scene, system.stiffness.kind, system, work);
   DualParts& dual = *system.dual;
   const QGauss<1>& gauss = dual.gauss;
   const QGauss<1> along_road(degree + 6);

@@ -53,14 +53,17 @@ bool is_certificate_prepared(const Scene& scene, const MeshSystem& system) {
 }
 
 void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind kind,
-                         bool in_threads, MeshSystem& system, Work& work) {
+                         MeshSystem& system, Work& work) {
   if (is_certificate_prepared(scene, system))
     return;
   const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
   const AffineConstraints<double> constraints =
       potential_constraints(space, scene, no_pressures, ForceJumps());
-  TaskBeside potential(in_threads && !has_potential(system, scene), [&] {
-    if (!has_potential(system, scene))
+  const bool is_missing = !has_potential(system, scene);
+  const bool in_thread =
+      is_missing && scene.has_uneven_force() && kind != SolverKind::iterative && gains_by_threads();
+  TaskBeside potential(in_thread, [&] {
+    if (is_missing)
       make_potential(space, scene, kind, constraints, system, work);
   });
   if (!has_force(system, scene))

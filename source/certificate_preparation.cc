@@ -20,8 +20,7 @@ bool gains_by_preparing(const Scene& scene, const Parameters& parameters,
 
 CertificatePreparation::CertificatePreparation(const Scene& scene, Solution& solution)
     : solution(solution), task(true, [this, &scene, &solution] {
-        prepare_certificate(*solution.space, scene, SolverKind::direct, false, solution.system,
-                            work);
+        prepare_certificate(*solution.space, scene, SolverKind::direct, solution.system, work);
       }) {}
 
 void CertificatePreparation::finish() {
