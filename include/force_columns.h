@@ -27,18 +27,17 @@ public:
   /// Those of the angular interval [begin, end].
   const ForceLines& on(double begin, double end);
 
+  /// The same, made before.
+  const ForceLines& made_on(double begin, double end) const { return *lines.find(begin, end); }
+
   /// Any other, beyond the radius @p begin.
   ForceColumn at(double z, double begin) const { return force.column(z, begin); }
 
   /// On the radial interval [begin, end], whose shapes are @p radial.
-  ForceAtRadii& at_radii(double begin, double end, const RadialShapes& radial);
   ForceLoads& loads(double begin, double end, const RadialShapes& radial);
 
   /// Whether the force is a number, the same on all lines.
   bool has_equal_lines() const { return force.is_exact(); }
-
-  /// G at the radii of @p radial on all lines, when they are equal.
-  const std::vector<double>& equal_integrals(double begin, double end, const RadialShapes& radial);
 
 private:
   const ForceInterpolant& force;
@@ -47,9 +46,7 @@ private:
   const std::vector<FinerRule> gauss; ///< of the cells, and with more points
   const double negligible;            ///< root mean square over z of what is missed of G
   IntervalMap<ForceLines> lines;
-  IntervalMap<ForceAtRadii> known_radii;
   IntervalMap<ForceLoads> known_loads;
-  IntervalMap<std::vector<double>> known_integrals;
 };
 
 } // namespace rollwave
