@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
@@ -22,10 +23,18 @@ Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Resul
     add_point(point);
   add_point(result.surface.front());
   script << "EOD\n";
-  script << "$pressure << EOD\n";
-  for (const ContactRow& row : result.contact_rows)
-    script << row.angle << ' ' << row.pressure << '\n';
+  script << "$contact << EOD\n";
+  double least = 0, nearest_road = std::numeric_limits<double>::max(), largest = -nearest_road;
+  for (const ContactRow& row : result.contact_rows) {
+    const double u = row.displacement / b, road = row.road / b;
+    script << row.angle << ' ' << u << ' ' << road << ' ' << row.pressure << '\n';
+    least = std::min({least, u, road});
+    largest = std::max(largest, u);
+    nearest_road = std::min(nearest_road, road);
+  }
   script << "EOD\n";
+  largest = std::max(largest, nearest_road);
+  const double margin = largest > least ? (largest - least) / 8 : 1;
 
   script << "a = " << scene.inner_radius / b << "\nhalf = " << 1.08 * largest_radius
          << "\nc = " << parameters.road.distance / parameters.cylinder.outer_radius << '\n'
@@ -34,13 +43,13 @@ set multiplot
 set samples 361
 set parametric
 set trange [0:2*pi]
-set size ratio -1 1,0.68
-set origin 0,0.32
+set size ratio -1 1,0.55
+set origin 0,0.45
 set xrange [-half:half]
 set yrange [-half+0.1:half-0.2]
 set xlabel 'x / b'
 set ylabel 'y / b'
-set key outside right top
+set key outside bottom center horizontal
 set object 1 rectangle from -half,-half+0.1 to half,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
 plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
      cos(t),sin(t) with lines linewidth 1 dashtype 2 linecolor rgb '#808080' title 'undeformed', \
@@ -51,28 +60,38 @@ plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notit
 unset parametric
 unset object 1
 set size noratio
-set size 1,0.33
-set origin 0,0
-set key inside right top
-set autoscale
-set yrange [0:*]
-set xlabel 'angle z [rad], lowest point at 3 pi / 2'
-set ylabel 'pressure'
-set format y '%g'
+set lmargin at screen 0.14
+set rmargin at screen 0.96
+set key inside bottom center
+unset xlabel
+set format '%g'
 set grid
 )";
+  script << "set xrange [" << scene.zone_begin << ':' << scene.zone_end << "]\n";
   if (result.patch.ends)
     script << "set arrow 1 from " << result.patch.ends->first << ",graph 0 to "
            << result.patch.ends->first << ",graph 1 nohead dashtype 3\nset arrow 2 from "
            << result.patch.ends->second << ",graph 0 to " << result.patch.ends->second
            << ",graph 1 nohead dashtype 3\n";
-  else
+  // Outwards is downwards, as in the picture above.
+  script << "lowest = " << largest + margin << "\nset yrange [lowest:" << least - margin << "]\n"
+         << R"(
+set size 1,0.23
+set origin 0,0.23
+set ylabel 'displacement / b'
+plot '$contact' using 1:3 with filledcurves y1=lowest fillcolor rgb '#e8e4dc' notitle, \
+     '$contact' using 1:3 with lines linewidth 2 linecolor rgb '#7a5c2e' title 'road', \
+     '$contact' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'surface'
+set origin 0,0
+set yrange [0:*]
+set xlabel 'angle z [rad], lowest point at 3 pi / 2'
+set ylabel 'contact pressure'
+)";
+  if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 1 'no contact' at graph 0.5,0.5 center\n";
-  script << "set xrange [" << scene.zone_begin << ':' << scene.zone_end << "]\n"
-         << "plot '$pressure' using 1:2 with filledcurves y1=0 fillcolor rgb '#f3d9c4' notitle, "
-            "'$pressure' using 1:2 with lines linewidth 2 linecolor rgb '#b3541e' "
-            "title 'contact pressure'\n";
-  return Drawing(script.str(), 760, 980);
+  script << "plot '$contact' using 1:4 with filledcurves y1=0 fillcolor rgb '#f3d9c4' notitle, "
+            "'$contact' using 1:4 with lines linewidth 2 linecolor rgb '#b3541e' notitle\n";
+  return Drawing(script.str(), 760, 1200);
 }
 
 } // namespace rollwave
