@@ -96,6 +96,7 @@ struct ContactRow {
   double road;
   double gap;
   double pressure;
+  double weight; ///< a length: the sum of pressure times weight is the contact force
 };
 
 /// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing

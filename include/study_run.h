@@ -19,6 +19,7 @@ struct StudyRun {
   std::map<std::string, double> figures;
   std::string reference; ///< what its errors are measured against; empty without errors
   std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
+  std::string remarks;   ///< those of its Result, one after another
 
   bool is_solved() const { return !figures.empty(); }
 
@@ -35,7 +36,7 @@ struct StudyRun {
 std::map<std::string, double> figures_of(const Result& result);
 
 /// study.csv: `scene` where there are several, the varied keys, `solved`, `published_steps`,
-/// `reference`, `failure`, then the figures in full precision.
+/// `reference`, `failure`, the figures in full precision, `remarks`.
 std::string study_csv(const std::vector<StudyRun>& runs);
 
 /// The runs that study_csv() wrote, without their settings and published steps; none where it

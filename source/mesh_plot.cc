@@ -73,12 +73,15 @@ std::optional<Drawing> plot_mesh(const Scene& scene, const Solution& solution) {
   // Where the lowest point of the surface is, in units of b.
   const double lowest =
       -1 - scene.road((scene.zone_begin + scene.zone_end) / 2) / scene.outer_radius;
-  script << R"(EOD
+  double largest_radius = 1;
+  for (const SurfacePoint& point : solution.result.surface)
+    largest_radius = std::max(largest_radius, 1 + point.displacement / scene.outer_radius);
+  script << "EOD\nhalf = " << 1.1 * largest_radius << R"(
 set multiplot
 set size ratio -1 1,0.62
 set origin 0,0.38
-set xrange [-1.1:1.1]
-set yrange [-1.1:1.1]
+set xrange [-half:half]
+set yrange [-half:half]
 set xlabel 'x / b'
 set ylabel 'y / b'
 plot '$edges' with lines linewidth 0.5 linecolor rgb '#1f5fa8' notitle

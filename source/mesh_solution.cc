@@ -75,7 +75,8 @@ std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactPr
   std::vector<ContactRow> rows;
   for (unsigned int i = 0; i < problem.size(); ++i)
     rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i),
-                    problem.road(i) - state.displacement(i), state.force(i) / problem.weight(i)});
+                    problem.road(i) - state.displacement(i), state.force(i) / problem.weight(i),
+                    problem.weight(i)});
   return rows;
 }
 

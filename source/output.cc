@@ -28,10 +28,10 @@ namespace {
 std::string contact_csv(const Result& result) {
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
-  out << "z,u,phi,gap,pressure\n";
+  out << "z,u,phi,gap,pressure,weight\n";
   for (const ContactRow& row : result.contact_rows)
     out << row.angle << ',' << row.displacement << ',' << row.road << ',' << row.gap << ','
-        << row.pressure << '\n';
+        << row.pressure << ',' << row.weight << '\n';
   return out.str();
 }
 

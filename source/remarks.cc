@@ -2,8 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 namespace rollwave {
+
+namespace {
+
+/// The depth of the surface in the road outside of the zone, where no road is.
+double depth_outside(const Scene& scene, const Result& result) {
+  double depth = 0;
+  for (const SurfacePoint& point : result.surface)
+    if (!scene.is_in_zone(point.angle) && std::sin(point.angle) < 0)
+      depth = std::max(depth, point.displacement - scene.road(point.angle));
+  return depth;
+}
+
+std::string text_of(double value) {
+  std::ostringstream text;
+  text << std::setprecision(2) << value;
+  return text.str();
+}
+
+} // namespace
 
 std::vector<std::string> remarks_on(const Scene& scene, const Parameters& parameters,
                                     const Result& result) {
@@ -17,6 +38,18 @@ std::vector<std::string> remarks_on(const Scene& scene, const Parameters& parame
               "where peak_pressure grows with each refinement"
             : "contact reaches the end of the automatic zone, where phi = b; give a "
               "wider Road/Contact zone if it may go on");
+  const double depth = depth_outside(scene, result) / scene.outer_radius;
+  if (parameters.road.contact_zone && depth > 1e-9)
+    remarks.push_back("outside of the zone, where there is no contact, the surface lies up to " +
+                      text_of(depth) +
+                      " b within the road; give a wider Road/Contact zone if it shall not");
+  if (result.certified && !(result.certified->relative < 1))
+    remarks.push_back(
+        std::string("the bound of the error is no smaller than the solution, so that no digit is "
+                    "certified: refine, or set Mesh/Wanted relative error") +
+        (scene.has_uneven_force()
+             ? "; for a force that is not square integrable, such as 1/(r - 0.7), there is no bound"
+             : ""));
   constexpr unsigned int few_nodes = 2;
   if (0 < active_nodes && active_nodes <= few_nodes)
     remarks.push_back("contact is held by " + std::to_string(active_nodes) +

@@ -106,15 +106,15 @@ void report_result(std::ostream& out, const Result& result) {
       << "  vertical load            " << patch.vertical_load << '\n'
       << "  work-conjugate load  G = " << patch.work_conjugate_load << '\n'
       << "  peak pressure            " << patch.peak_pressure << '\n'
-      << "  energy               J = " << result.energy.value
-      << ", a(u, u) = " << result.energy.norm_squared << '\n';
+      << "  energy          J(u_h) = " << result.energy.value
+      << ", a(u_h, u_h) = " << result.energy.norm_squared << '\n';
   if (result.certified) {
     const CertifiedError& certified = *result.certified;
-    out << "Certified  J from " << std::setprecision(9) << certified.lower_bound << " to "
+    out << "Certified  J(u) from " << std::setprecision(9) << certified.lower_bound << " to "
         << certified.upper_bound << ", error in the energy norm at most " << std::setprecision(3)
         << certified.energy_norm << ", relative " << certified.relative << '\n';
     if (result.load_bounds)
-      out << "           G from " << std::setprecision(9) << result.load_bounds->lower << " to "
+      out << "           G    from " << std::setprecision(9) << result.load_bounds->lower << " to "
           << result.load_bounds->upper << '\n';
   }
   if (!result.shortfall.empty())

@@ -54,7 +54,7 @@ Result to_lengths(Result result, double unit) {
     step.penetration *= unit;
   result.rho /= unit;
   for (ContactRow& row : result.contact_rows)
-    for (double* const length : {&row.displacement, &row.road, &row.gap})
+    for (double* const length : {&row.displacement, &row.road, &row.gap, &row.weight})
       *length *= unit;
   for (SurfacePoint& point : result.surface)
     point.displacement *= unit;

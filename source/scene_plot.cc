@@ -11,7 +11,7 @@ Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Resul
   // Lengths are drawn in units of b, so that any scene fits the frame.
   const double b = scene.outer_radius;
   std::ostringstream script;
-  script.precision(9);
+  script.precision(12);
   script << "$surface << EOD\n";
   double largest_radius = 1.25;
   const auto add_point = [&](const SurfacePoint& point) {
@@ -23,11 +23,19 @@ Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Resul
     add_point(point);
   add_point(result.surface.front());
   script << "EOD\n";
+  // The contact with half as much on both sides, as far as the zone goes.
+  double begin = scene.zone_begin, end = scene.zone_end;
+  if (result.patch.ends) {
+    begin = std::max(begin, result.patch.ends->first - result.patch.half_width());
+    end = std::min(end, result.patch.ends->second + result.patch.half_width());
+  }
   script << "$contact << EOD\n";
   double least = 0, nearest_road = std::numeric_limits<double>::max(), largest = -nearest_road;
   for (const ContactRow& row : result.contact_rows) {
     const double u = row.displacement / b, road = row.road / b;
     script << row.angle << ' ' << u << ' ' << road << ' ' << row.pressure << '\n';
+    if (row.angle < begin || row.angle > end)
+      continue;
     least = std::min({least, u, road});
     largest = std::max(largest, u);
     nearest_road = std::min(nearest_road, road);
@@ -46,11 +54,11 @@ set trange [0:2*pi]
 set size ratio -1 1,0.55
 set origin 0,0.45
 set xrange [-half:half]
-set yrange [-half+0.1:half-0.2]
+set yrange [-half:half]
 set xlabel 'x / b'
 set ylabel 'y / b'
 set key outside bottom center horizontal
-set object 1 rectangle from -half,-half+0.1 to half,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
+set object 1 rectangle from -half,-half to half,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
 plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
      cos(t),sin(t) with lines linewidth 1 dashtype 2 linecolor rgb '#808080' title 'undeformed', \
      '$surface' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'deformed', \
@@ -60,14 +68,14 @@ plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notit
 unset parametric
 unset object 1
 set size noratio
-set lmargin at screen 0.14
+set lmargin at screen 0.17
 set rmargin at screen 0.96
 set key inside bottom center
 unset xlabel
 set format '%g'
 set grid
 )";
-  script << "set xrange [" << scene.zone_begin << ':' << scene.zone_end << "]\n";
+  script << "set xrange [" << begin << ':' << end << "]\n";
   if (result.patch.ends)
     script << "set arrow 1 from " << result.patch.ends->first << ",graph 0 to "
            << result.patch.ends->first << ",graph 1 nohead dashtype 3\nset arrow 2 from "

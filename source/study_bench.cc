@@ -160,6 +160,9 @@ void solve(const Parameters& parameters, Sweep& sweep, References& references, S
     result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
     run.figures = figures_of(to_lengths(result, scene.unit));
     run.failure = result.shortfall;
+    run.remarks.clear();
+    for (const std::string& remark : result.remarks)
+      run.remarks += (run.remarks.empty() ? "" : "; ") + remark;
   };
   note(); // what stays where no reference can be made
   if (parameters.study.true_errors) {

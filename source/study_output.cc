@@ -223,6 +223,9 @@ void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
   for (const StudyRun& run : runs)
     if (has_failure(run))
       out << "Not solved, " << name_of(run) << ": " << run.failure << '\n';
+  for (const StudyRun& run : runs)
+    if (!run.remarks.empty())
+      out << "Note, " << name_of(run) << ": " << run.remarks << '\n';
   print_orders(out, runs);
 }
 

@@ -67,7 +67,25 @@ std::string figure_header() {
   std::string header = "solved,published_steps,reference,failure";
   for (const std::string& name : figure_names())
     header += "," + name;
-  return header;
+  return header + ",remarks";
+}
+
+/// Text as a field in quotes.
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return '"' + text + '"';
+}
+
+/// The text of the field in quotes that ends before @p end, which is moved to the comma before it;
+/// nullopt without one.
+std::optional<std::string> take_quoted(const std::string& line, std::size_t& end) {
+  const auto quote = end > 1 && line[end - 1] == '"' ? line.rfind('"', end - 2) : std::string::npos;
+  if (quote == std::string::npos || quote == 0)
+    return {};
+  const std::string text = line.substr(quote + 1, end - quote - 2);
+  end = quote - 1;
+  return text;
 }
 
 } // namespace
@@ -161,16 +179,13 @@ std::string study_csv(const std::vector<StudyRun>& runs) {
     out << run.is_solved() << ',';
     if (run.published_steps)
       out << *run.published_steps;
-    std::string failure = run.failure;
-    std::replace(failure.begin(), failure.end(), '"', '\'');
-    std::replace(failure.begin(), failure.end(), '\n', ' ');
-    out << ",\"" << run.reference << "\",\"" << failure << '"';
+    out << ',' << quoted(run.reference) << ',' << quoted(run.failure);
     for (const std::string& name : figure_names()) {
       out << ',';
       if (const auto figure = run.figure(name))
         out << *figure;
     }
-    out << '\n';
+    out << ',' << quoted(run.remarks) << '\n';
   }
   return out.str();
 }
@@ -185,9 +200,13 @@ std::vector<StudyRun> read_study_csv(const std::string& text) {
       line.compare(line.size() - expected.size(), expected.size(), expected) != 0)
     return runs;
   while (std::getline(in, line) && !in.eof()) { // a row without its end may lack digits
-    // Figures are the last fields, and have no commas; the varied values before them may.
+    // From the end: figures have no commas, but the varied values before them may.
     StudyRun run;
     std::size_t end = line.size();
+    const auto remarks = take_quoted(line, end);
+    if (!remarks)
+      return runs;
+    run.remarks = *remarks;
     for (auto name = figure_names().rbegin(); name != figure_names().rend(); ++name) {
       const auto comma = end > 0 ? line.rfind(',', end - 1) : std::string::npos;
       if (comma == std::string::npos)
@@ -198,12 +217,10 @@ std::vector<StudyRun> read_study_csv(const std::string& text) {
       end = comma;
     }
     for (std::string* const text : {&run.failure, &run.reference}) {
-      const auto quote =
-          end > 1 && line[end - 1] == '"' ? line.rfind('"', end - 2) : std::string::npos;
-      if (quote == std::string::npos || quote == 0)
+      const auto field = take_quoted(line, end);
+      if (!field)
         return runs;
-      *text = line.substr(quote + 1, end - quote - 2);
-      end = quote - 1;
+      *text = *field;
     }
     runs.push_back(std::move(run));
   }

@@ -79,7 +79,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
         {{"cells", cycle.cells},
          {"dofs", cycle.dofs},
          {"contact_steps", cycle.contact_steps},
-         {"indicated_error", cycle.indicated},
+         {"indicated_error", number_or_null(cycle.indicated > 0, cycle.indicated)},
          {"certified_relative", number_or_null(cycle.certified && std::isfinite(*cycle.certified),
                                                cycle.certified.value_or(0))}});
 

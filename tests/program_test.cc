@@ -36,15 +36,20 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   std::istringstream rows(read("contact.csv"));
   std::string row;
   std::getline(rows, row);
-  EXPECT_EQ(row, "z,u,phi,gap,pressure");
+  EXPECT_EQ(row, "z,u,phi,gap,pressure,weight");
   unsigned int n_rows = 0;
+  double force = 0;
   while (std::getline(rows, row)) {
-    double z, u, phi, gap, pressure;
-    ASSERT_EQ(std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf", &z, &u, &phi, &gap, &pressure), 5);
+    double z, u, phi, gap, pressure, weight;
+    ASSERT_EQ(
+        std::sscanf(row.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf", &z, &u, &phi, &gap, &pressure, &weight),
+        6);
     EXPECT_NEAR(gap, phi - u, 1e-15);
     EXPECT_EQ(gap * pressure, 0);
+    force += pressure * weight;
     ++n_rows;
   }
+  EXPECT_NEAR(force, json["contact"]["force"].get<double>(), 1e-14);
   EXPECT_EQ(json["mesh"]["contact_nodes"], n_rows);
 }
 

@@ -129,7 +129,9 @@ TEST(ActiveSetSteps, AreFewOnStretchedCells) {
              {"Mesh/Degree=2", "Mesh/Radial cells=2", "Mesh/Angular cells=2000"},
              {"Mesh/Degree=3", "Mesh/Radial cells=2", "Mesh/Angular cells=600"},
              {"Mesh/Degree=1", "Mesh/Radial cells=400", "Mesh/Angular cells=40"}}) {
-      const Result result = solve(with(paper.parameters(), mesh));
+      // One row of long cells certifies nothing, which would be a remark.
+      const Result result =
+          solve(with(with(paper.parameters(), mesh), {"Certificate/Error bound=false"}));
       EXPECT_LE(result.history.size(), 12u) << "figure " << paper.figure << ", " << mesh.back();
       EXPECT_TRUE(result.remarks.empty()) << result.remarks.front();
       EXPECT_LT(result.residuals.penetration, 1e-11);

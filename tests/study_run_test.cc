@@ -16,6 +16,7 @@ std::vector<StudyRun> two_runs() {
   solved.reference = "the semi-analytic solution";
   solved.figures = {{"force", 0.1}, {"energy", 1. / 3}, {"dofs", 1234}};
   StudyRun failed = solved;
+  solved.remarks = "rough, \"or so\"";
   failed.failure = "no \"way\",\nat all";
   failed.figures = {{"dofs", 5}};
   return {solved, failed};
@@ -29,6 +30,8 @@ TEST(StudyCsv, IsReadAsItWasWritten) {
     EXPECT_EQ(read[i].reference, runs[i].reference);
     EXPECT_EQ(read[i].figures, runs[i].figures);
   }
+  EXPECT_EQ(read[0].remarks, "rough, 'or so'");
+  EXPECT_TRUE(read[1].remarks.empty());
   EXPECT_TRUE(read[0].failure.empty());
   EXPECT_EQ(read[1].failure, "no 'way', at all");
   EXPECT_TRUE(read_study_csv(study_csv({})).empty());

@@ -1,0 +1,57 @@
+// Remarks say what the figures do not show, and are left out where there is nothing to say.
+#include "floating_point.h"
+#include "simulation.h"
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace rollwave;
+
+namespace {
+
+/// Of figure 4 on 8 x 100 cells with these settings.
+std::vector<std::string> remarks_with(const std::vector<std::string>& settings) {
+  const Parameters parameters =
+      with(with(paper_scenes()[0].parameters(), {"Mesh/Radial cells=8", "Mesh/Angular cells=100"}),
+           settings);
+  return simulate(make_scene(parameters), parameters).result.remarks;
+}
+
+bool have(const std::vector<std::string>& remarks, const std::string& text) {
+  return std::any_of(remarks.begin(), remarks.end(), [&](const std::string& remark) {
+    return remark.find(text) != std::string::npos;
+  });
+}
+
+TEST(Remarks, AreNoneOfAnOrdinaryScene) {
+  for (const char* distance : {"0.8", "0.95", "1.1"})
+    EXPECT_TRUE(remarks_with({std::string("Road/Distance=") + distance}).empty()) << distance;
+  // Wider than contact is, the zone changes nothing.
+  EXPECT_TRUE(remarks_with({"Road/Contact zone=3.9, 5.6"}).empty());
+}
+
+TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
+  // Where nothing presses on it the surface stays where it was: u = 0, phi = c - b at the lowest
+  // point.
+  const auto beside = remarks_with({"Road/Contact zone=5.5, 6"});
+  EXPECT_TRUE(have(beside, "up to 0.2 b within the road"));
+  const auto cut = remarks_with({"Road/Contact zone=4.5, 5"});
+  EXPECT_TRUE(have(cut, "b within the road"));
+  EXPECT_TRUE(have(cut, "cuts the contact short"));
+}
+
+TEST(Remarks, TellWhenTheBoundSaysNothing) {
+  {
+    const UntrappedFloatingPoint untrapped; // the search for jumps ends at the pole
+    EXPECT_TRUE(
+        have(remarks_with({"Cylinder/Radial force=1/(r-0.7123)"}), "not square integrable"));
+  }
+  EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=10"}), "more than the ring is thick"));
+  const auto hairline = remarks_with({"Road/Distance=0.999999"});
+  EXPECT_TRUE(have(hairline, "no digit is certified"));
+  EXPECT_TRUE(have(hairline, "held by 1 node"));
+}
+
+} // namespace
