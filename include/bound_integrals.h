@@ -27,7 +27,8 @@ struct BoundIntegrals {
 /// @param displacement u_h, with the contact nodes on the road or before it
 /// @param trace v of it on the surface
 /// @param pressures lambda without the bubbles' share
-/// @param dual in which the shapes and lines of all cells have been made
+/// @param dual in which the shapes and lines of all own cells have been made: by AngularBubbles,
+/// and under a force that is no number by its ForceContribution
 BoundIntegrals integrate_bound(const RingSpace& space, const Scene& scene,
                                const FieldVector& displacement, const FeasibleTrace& trace,
                                const std::vector<EdgePressure>& pressures,

@@ -28,7 +28,7 @@ public:
   const ForceLines& on(double begin, double end);
 
   /// The same, made before.
-  const ForceLines& made_on(double begin, double end) const { return *lines.find(begin, end); }
+  const ForceLines& made_on(double begin, double end) const { return lines.made(begin, end); }
 
   /// Any other, beyond the radius @p begin.
   ForceColumn at(double z, double begin) const { return force.column(z, begin); }

@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_INTERVAL_MAP_H
 #define ROLLWAVE_INTERVAL_MAP_H
 
+#include <deal.II/base/exceptions.h>
+
 #include <boost/functional/hash.hpp>
 
 #include <cstddef>
@@ -21,33 +23,40 @@ public:
   template <typename Make>
   T& at(double begin, double end, const Make& make) {
     const Interval interval(begin, end);
-    if (recent < made.size() && made[recent].first == interval)
-      return made[recent].second;
+    if (recent < values.size() && values[recent].first == interval)
+      return values[recent].second;
     // Cells of a uniform mesh come from the inside out, one row after another.
-    if (++recent >= made.size())
+    if (++recent >= values.size())
       recent = 0;
-    if (recent >= made.size() || made[recent].first != interval) {
+    if (recent >= values.size() || values[recent].first != interval) {
       const auto number = numbers.find(interval);
-      recent = number == numbers.end() ? made.size() : number->second;
+      recent = number == numbers.end() ? values.size() : number->second;
     }
-    if (recent == made.size()) {
-      made.emplace_back(interval, make());
+    if (recent == values.size()) {
+      values.emplace_back(interval, make());
       numbers.emplace(interval, recent);
     }
-    return made[recent].second;
+    return values[recent].second;
   }
 
   /// nullptr where it is not made.
   const T* find(double begin, double end) const {
     const auto number = numbers.find({begin, end});
-    return number == numbers.end() ? nullptr : &made[number->second].second;
+    return number == numbers.end() ? nullptr : &values[number->second].second;
+  }
+
+  /// What must have been made.
+  const T& made(double begin, double end) const {
+    const T* const found = find(begin, end);
+    Assert(found, dealii::ExcInternalError());
+    return *found;
   }
 
   /// All that are made, in that order.
-  const std::deque<std::pair<Interval, T>>& entries() const { return made; }
+  const std::deque<std::pair<Interval, T>>& entries() const { return values; }
 
 private:
-  std::deque<std::pair<Interval, T>> made;
+  std::deque<std::pair<Interval, T>> values;
   std::unordered_map<Interval, std::size_t, boost::hash<Interval>> numbers;
   std::size_t recent = 0;
 };

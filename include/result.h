@@ -96,7 +96,7 @@ struct ContactRow {
   double road;
   double gap;
   double pressure;
-  double weight; ///< a length: the sum of pressure times weight is the contact force
+  double weight; ///< area for a unit of the axle's length: pressures times it add up to the force
 };
 
 /// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing

@@ -7,8 +7,8 @@
 
 namespace rollwave {
 
-/// The undeformed and the deformed outline on the road; over the contact zone, at their own scales,
-/// surface and road, and the pressure.
+/// The undeformed and the deformed outline on the road; over the contact and half as much on
+/// both sides, or the zone without contact, surface and road, and the pressure.
 Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Result& result);
 
 } // namespace rollwave

@@ -19,7 +19,7 @@ struct StudyRun {
   std::map<std::string, double> figures;
   std::string reference; ///< what its errors are measured against; empty without errors
   std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
-  std::string remarks;   ///< those of its Result, one after another
+  std::string remarks;   ///< those of its Result, with " | " between them
 
   bool is_solved() const { return !figures.empty(); }
 

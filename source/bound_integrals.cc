@@ -3,12 +3,15 @@
 #include "angular_bubbles.h"
 #include "constant_size.h"
 #include "force_columns.h"
+#include "force_integrals.h"
 #include "interval_map.h"
 #include "lexicographic_dofs.h"
 #include "mesh_system.h"
 #include "parameters.h"
 #include "potential_kinks.h"
+#include "radial_shapes.h"
 #include "scene.h"
+#include "shape_products.h"
 #include "task_beside.h"
 
 #include <deal.II/base/mpi.h>
@@ -27,15 +30,15 @@ using namespace dealii;
 
 namespace {
 
-using Cell = DoFHandler<2>::active_cell_iterator;
+using IntegratedCell = DoFHandler<2>::active_cell_iterator;
 
 /// At the nodes on one side of a cell.
-using NodeValues = std::array<double, highest_degree + 1>;
+using LineValues = std::array<double, highest_degree + 1>;
 
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
   double t;
-  NodeValues value, derivative; ///< the latter d/dt
+  LineValues value, derivative; ///< the latter d/dt
   double bubble;                ///< of AngularBubbles: beta
   double mode;                  ///< P
 
@@ -175,7 +178,7 @@ private:
                            const FeasibleTrace::Correction& correction,
                            const std::vector<double>* moments) const {
     // Coefficients along the line of u, psi and their angular derivatives
-    NodeValues line_u, line_u_z, line_psi, line_psi_z;
+    LineValues line_u, line_u_z, line_psi, line_psi_z;
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -261,7 +264,7 @@ std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const Force
 /// The integrals over the own cells from @p begin to @p end.
 Sums integrate_cells(const RingSpace& space, const Scene& scene, const FeasibleTrace& trace,
                      const std::vector<EdgePressure>& pressures, const DualParts& dual,
-                     Integrator integrator, const Cell& begin, const Cell& end,
+                     Integrator integrator, const IntegratedCell& begin, const IntegratedCell& end,
                      std::vector<double>& cell_bounds) {
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGauss<1>& gauss = dual.gauss;
@@ -269,7 +272,7 @@ Sums integrate_cells(const RingSpace& space, const Scene& scene, const FeasibleT
   const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
   IntervalMap<std::vector<AngularShapes>> own_shapes;
   Sums total;
-  for (Cell cell = begin; cell != end; ++cell) {
+  for (IntegratedCell cell = begin; cell != end; ++cell) {
     if (!cell->is_locally_owned())
       continue;
     integrator.reinit(cell);
@@ -322,14 +325,14 @@ BoundIntegrals integrate_bound(const RingSpace& space, const Scene& scene,
   const DoFHandler<2>& handler = space.dof_handler();
   const unsigned int n_cells = handler.get_triangulation().n_active_cells();
   std::vector<double> cell_bounds(n_cells);
-  Cell middle = handler.begin_active();
+  IntegratedCell middle = handler.begin_active();
   std::advance(middle, n_cells / 2);
-  const auto integrate = [&](const Cell& begin, const Cell& end) {
+  const auto integrate = [&](const IntegratedCell& begin, const IntegratedCell& end) {
     return integrate_cells(space, scene, trace, pressures, dual,
                            Integrator(space, displacement, potential, bubbles, dual), begin, end,
                            cell_bounds);
   };
-  // To start a thread takes as long as a hundred cells.
+  // Which take half a millisecond, beside which a thread's start does not count.
   constexpr unsigned int few_cells = 1000;
   Sums total, of_second_half;
   TaskBeside second_half(n_cells > few_cells && gains_by_threads(),

@@ -13,10 +13,10 @@ using namespace dealii;
 
 namespace {
 
-using Cell = DoFHandler<2>::active_cell_iterator;
+using ColumnCell = DoFHandler<2>::active_cell_iterator;
 
 /// Whether the neighbour of a cell over its face @p f towards the hub or the surface is as long.
-bool has_equal_neighbour(const Cell& cell, unsigned int f) {
+bool has_equal_neighbour(const ColumnCell& cell, unsigned int f) {
   if (cell->at_boundary(f))
     return false;
   const auto neighbour = cell->neighbor(f);
@@ -24,7 +24,7 @@ bool has_equal_neighbour(const Cell& cell, unsigned int f) {
 }
 
 /// Whether a process has the neighbour over the face @p f too, and it is as long.
-bool has_own_neighbour(const Cell& cell, unsigned int f) {
+bool has_own_neighbour(const ColumnCell& cell, unsigned int f) {
   return has_equal_neighbour(cell, f) && cell->neighbor(f)->is_locally_owned();
 }
 
@@ -52,7 +52,7 @@ BubbleColumns::BubbleColumns(const RingSpace& space, RadialShapesOfMesh& shapes)
   const FieldVector field = space.make_field();
   LexicographicDofs dofs(space.dof_handler());
   std::vector<unsigned int> places(n);
-  for (Cell cell : space.dof_handler().active_cell_iterators()) {
+  for (ColumnCell cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned() || has_own_neighbour(cell, 0))
       continue;
     const bool is_cut_below = has_equal_neighbour(cell, 0);

@@ -5,7 +5,6 @@
 #include "certificate_parts.h"
 #include "edge_pressure.h"
 #include "mesh_system.h"
-#include "parameters.h"
 #include "scene.h"
 #include "work.h"
 

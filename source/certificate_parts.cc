@@ -60,8 +60,8 @@ void prepare_certificate(const RingSpace& space, const Scene& scene, SolverKind 
   const AffineConstraints<double> constraints =
       potential_constraints(space, scene, no_pressures, ForceJumps());
   const bool is_missing = !has_potential(system, scene);
-  const bool in_thread =
-      is_missing && scene.has_uneven_force() && kind != SolverKind::iterative && gains_by_threads();
+  const bool in_thread = is_missing && scene.has_uneven_force() && !has_force(system, scene) &&
+                         kind != SolverKind::iterative && gains_by_threads();
   TaskBeside potential(in_thread, [&] {
     if (is_missing)
       make_potential(space, scene, kind, constraints, system, work);

@@ -9,7 +9,8 @@ namespace rollwave {
 
 namespace {
 
-/// The depth of the surface in the road outside of the zone, where no road is.
+/// How deep the surface lies in the road outside of the zone, where the road does not hold it. Only
+/// its lower half meets the road.
 double depth_outside(const Scene& scene, const Result& result) {
   double depth = 0;
   for (const SurfacePoint& point : result.surface)
@@ -18,7 +19,7 @@ double depth_outside(const Scene& scene, const Result& result) {
   return depth;
 }
 
-std::string text_of(double value) {
+std::string rounded(double value) {
   std::ostringstream text;
   text << std::setprecision(2) << value;
   return text.str();
@@ -41,15 +42,17 @@ std::vector<std::string> remarks_on(const Scene& scene, const Parameters& parame
   const double depth = depth_outside(scene, result) / scene.outer_radius;
   if (parameters.road.contact_zone && depth > 1e-9)
     remarks.push_back("outside of the zone, where there is no contact, the surface lies up to " +
-                      text_of(depth) +
+                      rounded(depth) +
                       " b within the road; give a wider Road/Contact zone if it shall not");
-  if (result.certified && !(result.certified->relative < 1))
-    remarks.push_back(
-        std::string("the bound of the error is no smaller than the solution, so that no digit is "
-                    "certified: refine, or set Mesh/Wanted relative error") +
-        (scene.has_uneven_force()
-             ? "; for a force that is not square integrable, such as 1/(r - 0.7), there is no bound"
-             : ""));
+  if (result.certified && !(result.certified->relative < 1)) {
+    std::string remark = "the certified relative error is 1 or more, so that no digit is certified";
+    if (parameters.mesh.wanted_relative_error == 0)
+      remark += "; refine, or set Mesh/Wanted relative error";
+    if (scene.has_uneven_force())
+      remark += "; for a force that is not square integrable, such as 1/(r - 0.7), there is no "
+                "bound";
+    remarks.push_back(remark);
+  }
   constexpr unsigned int few_nodes = 2;
   if (0 < active_nodes && active_nodes <= few_nodes)
     remarks.push_back("contact is held by " + std::to_string(active_nodes) +

@@ -1,5 +1,7 @@
 #include "scene_plot.h"
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,12 +31,19 @@ Drawing plot_scene(const Scene& scene, const Parameters& parameters, const Resul
     begin = std::max(begin, result.patch.ends->first - result.patch.half_width());
     end = std::min(end, result.patch.ends->second + result.patch.half_width());
   }
-  script << "$contact << EOD\n";
+  const auto is_within = [=](const ContactRow& row) {
+    return begin <= row.angle && row.angle <= end;
+  };
+  const auto& rows = result.contact_rows;
+  const bool is_any_within = std::any_of(rows.begin(), rows.end(), is_within);
+  // The undeformed surface is in view, and of the road what is nearest to it.
   double least = 0, nearest_road = std::numeric_limits<double>::max(), largest = -nearest_road;
-  for (const ContactRow& row : result.contact_rows) {
+  const double lowest_point = 3 * dealii::numbers::PI / 2;
+  script << "$contact << EOD\n";
+  for (const ContactRow& row : rows) {
     const double u = row.displacement / b, road = row.road / b;
-    script << row.angle << ' ' << u << ' ' << road << ' ' << row.pressure << '\n';
-    if (row.angle < begin || row.angle > end)
+    script << row.angle - lowest_point << ' ' << u << ' ' << road << ' ' << row.pressure << '\n';
+    if (is_any_within && !is_within(row))
       continue;
     least = std::min({least, u, road});
     largest = std::max(largest, u);
@@ -75,12 +84,11 @@ unset xlabel
 set format '%g'
 set grid
 )";
-  script << "set xrange [" << begin << ':' << end << "]\n";
-  if (result.patch.ends)
-    script << "set arrow 1 from " << result.patch.ends->first << ",graph 0 to "
-           << result.patch.ends->first << ",graph 1 nohead dashtype 3\nset arrow 2 from "
-           << result.patch.ends->second << ",graph 0 to " << result.patch.ends->second
-           << ",graph 1 nohead dashtype 3\n";
+  script << "set xrange [" << begin - lowest_point << ':' << end - lowest_point << "]\n";
+  if (const auto& ends = result.patch.ends)
+    for (const double z : {ends->first, ends->second})
+      script << "set arrow from " << z - lowest_point << ",graph 0 to " << z - lowest_point
+             << ",graph 1 nohead dashtype 3\n";
   // Outwards is downwards, as in the picture above.
   script << "lowest = " << largest + margin << "\nset yrange [lowest:" << least - margin << "]\n"
          << R"(
@@ -92,7 +100,7 @@ plot '$contact' using 1:3 with filledcurves y1=lowest fillcolor rgb '#e8e4dc' no
      '$contact' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'surface'
 set origin 0,0
 set yrange [0:*]
-set xlabel 'angle z [rad], lowest point at 3 pi / 2'
+set xlabel 'angle from the lowest point, z - 3 pi / 2 [rad]'
 set ylabel 'contact pressure'
 )";
   if (!result.patch.ends)

@@ -162,7 +162,7 @@ void solve(const Parameters& parameters, Sweep& sweep, References& references, S
     run.failure = result.shortfall;
     run.remarks.clear();
     for (const std::string& remark : result.remarks)
-      run.remarks += (run.remarks.empty() ? "" : "; ") + remark;
+      run.remarks += (run.remarks.empty() ? "" : " | ") + remark;
   };
   note(); // what stays where no reference can be made
   if (parameters.study.true_errors) {

@@ -42,13 +42,16 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
   EXPECT_TRUE(have(cut, "cuts the contact short"));
 }
 
+TEST(Remarks, TellWhenTheModelIsNotMeantForIt) {
+  EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=10"}), "more than the ring is thick"));
+}
+
 TEST(Remarks, TellWhenTheBoundSaysNothing) {
   {
     const UntrappedFloatingPoint untrapped; // the search for jumps ends at the pole
     EXPECT_TRUE(
         have(remarks_with({"Cylinder/Radial force=1/(r-0.7123)"}), "not square integrable"));
   }
-  EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=10"}), "more than the ring is thick"));
   const auto hairline = remarks_with({"Road/Distance=0.999999"});
   EXPECT_TRUE(have(hairline, "no digit is certified"));
   EXPECT_TRUE(have(hairline, "held by 1 node"));
