@@ -137,7 +137,7 @@ std::optional<double> constant_force(const Parameters& parameters) {
 }
 
 /// Why @p expression is no function of r and z although the parser would give it a value: of "1,5"
-/// the last part, 5. Empty where it would not.
+/// the last part, 5, of "3;" the first. Empty where it would not.
 std::string misunderstanding(const std::string& expression) {
   int depth = 0;
   for (std::size_t i = 0; i < expression.size(); ++i) {
@@ -145,6 +145,8 @@ std::string misunderstanding(const std::string& expression) {
     depth += c == '(' ? 1 : c == ')' ? -1 : 0;
     if (c == ',' && depth == 0)
       return "A comma separates the arguments of a function; decimals have a point.";
+    if (c == ';')
+      return "A semicolon separates expressions, of which there is one.";
     const bool is_comparison =
         expression.compare(i, 2, "==") == 0 ||
         (i > 0 && std::string("=<>!").find(expression[i - 1]) != std::string::npos);

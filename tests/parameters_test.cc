@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         "Contact/Tolerance=1", "Contact/Most steps=0", "Solver/Kind=magic",
         "Study/Vary=Mesh/Degree", "Study/Vary=Degree = 1", "Study/Vary=Study/Vary = 1",
         "Study/Published steps=1.5", "Output/Directory=", "Cylinder/Radial force=1,5",
-        "Cylinder/Radial force=1,0e3", "Cylinder/Radial force=r = 2",
+        "Cylinder/Radial force=3;", "Cylinder/Radial force=1,0e3", "Cylinder/Radial force=r = 2",
         "Cylinder/Radial force=0*(z = r)", "Cylinder/Radial force=rand()",
         "Cylinder/Radial force=1e400", "Cylinder/Outer radius=+-1", "Cylinder/Outer radius=0x1",
         "Cylinder/Outer radius=1e-320", "Road/Contact zone=4,2, 5,5",
