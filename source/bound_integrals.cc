@@ -95,7 +95,7 @@ public:
     }
   }
 
-  void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
+  void reinit(const IntegratedCell& cell) {
     low = cell->vertex(0);
     high = cell->vertex(3);
     length = high[1] - low[1];
@@ -332,12 +332,12 @@ BoundIntegrals integrate_bound(const RingSpace& space, const Scene& scene,
                            Integrator(space, displacement, potential, bubbles, dual), begin, end,
                            cell_bounds);
   };
-  // Which take half a millisecond, beside which a thread's start does not count.
+  // Which take a fifth of a millisecond or more, beside which a thread's start does not count.
   constexpr unsigned int few_cells = 1000;
-  Sums total, of_second_half;
+  Sums of_second_half;
   TaskBeside second_half(n_cells > few_cells && gains_by_threads(),
                          [&] { of_second_half = integrate(middle, handler.end()); });
-  total = integrate(handler.begin_active(), middle);
+  Sums total = integrate(handler.begin_active(), middle);
   second_half.finish();
   total.add(of_second_half, 1);
   std::vector<long double> sums = {total.bound_squared, total.norm_squared, total.work_of_force,
