@@ -3,6 +3,7 @@
 
 #include "load_breaks.h"
 #include "ring_space.h"
+#include "shape_products.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -13,21 +14,34 @@ namespace rollwave {
 
 struct Scene;
 
-/// Takes the stiffness matrix of one cell and the numbers of its degrees of freedom.
+/// A symmetric form on products of functions of r and z,
+///
+///     int (P_r(u, v) u_z v_z + S_r(u, v) u v) dz
+///
+/// by its radial integrals over the interval [begin, end] of a cell: P_r as mass, S_r as stiffness.
+/// @return valid until the next call
+using RadialProducts = std::function<const ShapeProducts&(double begin, double end)>;
+
+/// Takes the matrix of one cell and the numbers of its degrees of freedom, the radial index running
+/// fastest.
 using AddCellMatrix = std::function<void(const std::vector<dealii::types::global_dof_index>& dofs,
                                          const dealii::FullMatrix<double>& cell_matrix)>;
 
+/// Calls @p add with the tensor_matrix() of every cell of this process. Constraints are not
+/// applied.
+void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
+                       const AddCellMatrix& add);
+
 /**
- * Calls @p add for every cell of this process with
+ * The radial integrals of the stiffness matrix
  *
  *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,
  *     alpha = 1/r^2 - omega^2,
  *
- * exact but for round-off, by Gauss' rules with degree + 1 points in z and as many in r as the
- * factor 1/r needs (graded_rule()), the radial index of the degrees of freedom running fastest.
- * Constraints are not applied.
+ * exact but for round-off, by Gauss' rules with as many points as the factor 1/r needs
+ * (graded_rule()).
  */
-void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add);
+RadialProducts stiffness_products(const RingSpace& space, const Scene& scene);
 
 /// What a force does to a mesh.
 struct Load {

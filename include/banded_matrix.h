@@ -27,6 +27,9 @@ public:
   /// factors.
   void clear(unsigned int i);
 
+  /// A += factor B, of the same size and width.
+  void add(double factor, const BandedMatrix& other);
+
   /// A x
   std::vector<double> multiply(const std::vector<double>& x) const;
 

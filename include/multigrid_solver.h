@@ -18,7 +18,7 @@ public:
   explicit MultigridSolver(const RingSpace& space) : space(space) {}
 
   void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
-                  const EachCellMatrix& each, Work& work) override;
+                  const RadialProducts& radial, Work& work) override;
   FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) override;
 
   const dealii::TrilinosWrappers::SparseMatrix& matrix() const { return stiffness; }

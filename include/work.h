@@ -16,6 +16,7 @@ public:
   unsigned int stiffness_assemblies = 0;
   unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
   unsigned int factorisations = 0;       ///< of sparse matrices
+  unsigned int diagonalisations = 0;     ///< of matrices that are tensor products
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;
   unsigned int back_substitutions = 0;

@@ -22,9 +22,9 @@ using namespace dealii;
 namespace {
 
 /// int r d_r phi_i d_r phi_j dr and int r alpha phi_i phi_j dr over a radial interval.
-ShapeProducts radial_products(const Scene& scene,
-                              const std::vector<Polynomials::Polynomial<double>>& shapes,
-                              double begin, double end) {
+ShapeProducts integrate_products(const Scene& scene,
+                                 const std::vector<Polynomials::Polynomial<double>>& shapes,
+                                 double begin, double end) {
   const unsigned int n = shapes.size();
   // Beside a polynomial of degree 2 n there is the factor 1/r: on pieces with the ratio 2 twelve
   // points more leave nothing but round-off.
@@ -49,23 +49,27 @@ ShapeProducts radial_products(const Scene& scene,
 
 } // namespace
 
-void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
+void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
+                       const AddCellMatrix& add) {
   const auto& element = space.dof_handler().get_fe();
-  const auto shapes = lobatto_lagrange(element.degree);
   const ShapeProducts reference = reference_products(element.degree);
-  IntervalMap<ShapeProducts> known;
   FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
   LexicographicDofs dofs(space.dof_handler());
-
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const ShapeProducts& radial =
-        known.at(low[0], high[0], [&] { return radial_products(scene, shapes, low[0], high[0]); });
-    tensor_matrix(radial, reference, high[1] - low[1], cell_matrix);
+    tensor_matrix(radial(low[0], high[0]), reference, high[1] - low[1], cell_matrix);
     add(dofs.of(cell), cell_matrix);
   }
+}
+
+RadialProducts stiffness_products(const RingSpace& space, const Scene& scene) {
+  return [known = IntervalMap<ShapeProducts>(), scene,
+          shapes = lobatto_lagrange(space.dof_handler().get_fe().degree)](
+             double begin, double end) mutable -> const ShapeProducts& {
+    return known.at(begin, end, [&] { return integrate_products(scene, shapes, begin, end); });
+  };
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "banded_matrix.h"
 
+#include <cstddef>
 #include <utility>
 
 namespace rollwave {
@@ -10,6 +11,11 @@ void BandedMatrix::clear(unsigned int i) {
     if (d <= i)
       (*this)(i - d, d) = 0;
   }
+}
+
+void BandedMatrix::add(double factor, const BandedMatrix& other) {
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    entries[i] += factor * other.entries[i];
 }
 
 std::vector<double> BandedMatrix::multiply(const std::vector<double>& x) const {

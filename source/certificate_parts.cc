@@ -32,7 +32,7 @@ void make_potential(const RingSpace& space, const Scene& scene, SolverKind kind,
   RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree, system.breaks);
   system.bubbles.reset();
   system.potential->turn_to(scene, shapes, constraints, work);
-  if (space.n_unknowns() < many_unknowns) // else when the potential's factor may have gone
+  if (space.n_unknowns() < many_unknowns) // else when more memory is free
     system.bubbles.emplace(space, shapes);
 }
 

@@ -13,7 +13,7 @@ bool gains_by_preparing(const Scene& scene, const Parameters& parameters,
   const double n = solution.space->n_unknowns(), m = solution.space->contact_nodes().size();
   const double bytes = 4 * (1024 * n + sizeof(double) * m * m); // twice what both take
   return parameters.solver.kind != SolverKind::iterative &&
-         solution.system.stiffness.kind != SolverKind::iterative && n < many_unknowns &&
+         solution.system.stiffness.kind != SolverKind::iterative &&
          !is_certificate_prepared(scene, solution.system) && gains_by_threads() &&
          bytes < available_memory();
 }

@@ -106,18 +106,8 @@ void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
   angular_velocity.reset(); // until the solver is ready
   solver->set_matrix(
       scene, constraints,
-      [&](const AddCellMatrix& add) {
-        FullMatrix<double> cell_matrix(space.dof_handler().get_fe().n_dofs_per_cell());
-        LexicographicDofs dofs(space.dof_handler());
-        for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-          if (!cell->is_locally_owned())
-            continue;
-          // int psi_s phi_s ds dz + int psi_z phi_z / r dr dz
-          const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-          tensor_matrix(shapes.on(low[0], high[0]).products, reference, high[1] - low[1],
-                        cell_matrix);
-          add(dofs.of(cell), cell_matrix);
-        }
+      [&](double begin, double end) -> const ShapeProducts& {
+        return shapes.on(begin, end).products;
       },
       work);
   angular_velocity = scene.angular_velocity;

@@ -28,9 +28,7 @@ void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVecto
     return;
   const Work::Phase phase(work, "assembly");
   angular_velocity.reset();
-  system.set_matrix(
-      scene, space.constraints(),
-      [&](const AddCellMatrix& add) { assemble_stiffness(space, scene, add); }, work);
+  system.set_matrix(scene, space.constraints(), stiffness_products(space, scene), work);
   pinned_dofs.clear();
   multigrid_dofs.clear();
   find_couplings();

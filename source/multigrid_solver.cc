@@ -40,7 +40,7 @@ double strong_threshold(const RingSpace& space, const Scene& scene) {
 } // namespace
 
 void MultigridSolver::set_matrix(const Scene& scene, const AffineConstraints<double>& constraints,
-                                 const EachCellMatrix& each, Work& /*work*/) {
+                                 const RadialProducts& radial, Work& /*work*/) {
   preconditioner.reset();
   threshold = strong_threshold(space, scene);
   const TrilinosWrappers::SparsityPattern& pattern = space.matrix_pattern(constraints);
@@ -49,7 +49,7 @@ void MultigridSolver::set_matrix(const Scene& scene, const AffineConstraints<dou
   require_memory(bytes_per_entry * pattern.trilinos_sparsity_pattern().NumMyNonzeros(),
                  "the system matrix with its multigrid hierarchy", space.communicator());
   stiffness.reinit(pattern);
-  each([&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+  add_cell_matrices(space, radial, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
     constraints.distribute_local_to_global(cell_matrix, dofs, stiffness);
   });
   stiffness.compress(VectorOperation::add);

@@ -1,9 +1,9 @@
 #include "nested_dissection.h"
 
+#include "cell_places.h"
 #include "lexicographic_dofs.h"
 
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
@@ -97,26 +97,6 @@ void dissect(Range nodes, const Box& box) {
   dissect({upper, line}, half);
 }
 
-/// The place of a cell in units of coarse cells, (radial, angular), exact in binary arithmetic.
-struct Place {
-  std::array<double, 2> low;
-  double size;
-};
-
-Place place_of(const DoFHandler<2>::active_cell_iterator& cell, unsigned int n_radial) {
-  // Coarse cells are numbered with the radial index running fastest.
-  const CellId id = cell->id();
-  Place place = {
-      {{double(id.get_coarse_cell_id() % n_radial), double(id.get_coarse_cell_id() / n_radial)}},
-      1};
-  for (const unsigned int child : id.get_child_indices()) {
-    place.size /= 2;
-    place.low[0] += place.size * (child % 2);
-    place.low[1] += place.size * (child / 2);
-  }
-  return place;
-}
-
 /// Places from 0 to 1 for the nodes 0 to @p degree along a side of a cell, such that halving the
 /// interval halves the nodes: exact ones for degree 2.
 std::vector<double> node_places(unsigned int degree) {
@@ -134,17 +114,6 @@ std::vector<double> node_places(unsigned int degree) {
   return places;
 }
 
-unsigned int count_radial_cells(const Triangulation<2>& triangulation) {
-  const double first_angle = triangulation.begin(0)->vertex(0)[1];
-  unsigned int n_radial = 0;
-  for (const auto& cell : triangulation.cell_iterators_on_level(0)) {
-    if (cell->vertex(0)[1] != first_angle)
-      break;
-    ++n_radial;
-  }
-  return n_radial;
-}
-
 } // namespace
 
 std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
@@ -152,19 +121,18 @@ std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
   const unsigned int degree = handler.get_fe().degree, n = degree + 1;
   const std::vector<double> places = node_places(degree);
 
-  const unsigned int n_radial = count_radial_cells(triangulation);
+  const CellPlaces cells(triangulation);
   std::vector<Node> nodes(handler.n_dofs());
   LexicographicDofs dofs(handler);
   for (const auto& cell : handler.active_cell_iterators()) {
-    const Place place = place_of(cell, n_radial);
+    const CellPlace place = cells.of(cell);
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < of_cell.size(); ++i)
       nodes[of_cell[i]] = {
           {{place.low[0] + place.size * places[i % n], place.low[1] + place.size * places[i / n]}},
           of_cell[i]};
   }
-  const double n_angular = triangulation.n_cells(0) / n_radial;
-  const Box ring = {{{0, 0}}, {{double(n_radial), n_angular}}, true};
+  const Box ring = {{{0, 0}}, {{double(cells.n_radial()), double(cells.n_angular())}}, true};
   dissect({nodes.begin(), nodes.end()}, ring);
 
   std::vector<types::global_dof_index> order;

@@ -73,9 +73,10 @@ void TripletAssembler::add(const std::vector<types::global_dof_index>& dofs,
 LowerTriplets assemble_triplets(const RingSpace& space, const Scene& scene,
                                 const std::vector<int>& unknown_of_dof) {
   TripletAssembler assembler(space, space.constraints(), unknown_of_dof);
-  assemble_stiffness(space, scene, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
-    assembler.add(dofs, cell_matrix);
-  });
+  add_cell_matrices(space, stiffness_products(space, scene),
+                    [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+                      assembler.add(dofs, cell_matrix);
+                    });
   return std::move(assembler.triplets);
 }
 

@@ -4,6 +4,7 @@
 #include "multigrid_solver.h"
 #include "sparse_cholesky.h"
 #include "stiffness_triplets.h"
+#include "tensor_solver.h"
 
 #include <algorithm>
 #include <optional>
@@ -22,7 +23,7 @@ public:
   explicit CholeskySolver(const RingSpace& space) : space(space) {}
 
   void set_matrix(const Scene& /*scene*/, const AffineConstraints<double>& constraints,
-                  const EachCellMatrix& each, Work& work) override {
+                  const RadialProducts& radial, Work& work) override {
     const bool is_first = !cholesky; // later factors take the place of the one before
     if (is_first) {
       unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
@@ -34,9 +35,10 @@ public:
     }
     {
       TripletAssembler assembler(space, constraints, unknown_of_dof);
-      each([&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
-        assembler.add(dofs, cell_matrix);
-      });
+      add_cell_matrices(space, radial,
+                        [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+                          assembler.add(dofs, cell_matrix);
+                        });
       if (cholesky->set_matrix(assembler.triplets))
         ++work.orderings;
     }
@@ -88,6 +90,8 @@ private:
 } // namespace
 
 std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space) {
+  if (TensorSolver::suits(space))
+    return std::make_unique<TensorSolver>(space);
   if (kind == SolverKind::iterative)
     return std::make_unique<MultigridSolver>(space);
   return std::make_unique<CholeskySolver>(space);
