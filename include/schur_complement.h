@@ -32,12 +32,13 @@ public:
   unsigned int solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,
                      dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
 
-  /// Two sweeps to and fro of projected overrelaxation (C. W. Cryer, SIAM J. Control 9 (1971)
-  /// 385-392) towards u <= limit, N >= 0, N_i (limit_i - u_i) = 0: each node in turn takes
-  /// u_i <- min(limit_i, u_i + 1.6 (g - S u)_i / S_ii). They cost 8 m^2 multiplications, and leave
+  /// Sweeps to and fro of projected overrelaxation (C. W. Cryer, SIAM J. Control 9 (1971) 385-392)
+  /// towards u <= limit, N >= 0, N_i (limit_i - u_i) = 0: each node in turn takes
+  /// u_i <- min(limit_i, u_i + 1.6 (g - S u)_i / S_ii). One costs 4 m^2 multiplications. They leave
   /// N = g - S u.
   void relax(const dealii::Vector<double>& load, const dealii::Vector<double>& limit,
-             dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
+             unsigned int sweeps, dealii::Vector<double>& displacement,
+             dealii::Vector<double>& force) const;
 
   /// S^-1 force
   dealii::Vector<double> solve(dealii::Vector<double> force) const;

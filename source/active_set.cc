@@ -66,22 +66,32 @@ bool is_torn(const std::vector<bool>& active) {
 }
 
 /// The set that is nearer to the solution than @p next, which nodes of the wrong sign have left or
-/// entered: the ends have leapt. Where contact is torn, or has not been found by leaps in three
-/// steps, the other nodes are relaxed if the solver can.
+/// entered: the ends have leapt. Where contact is torn all nodes are relaxed instead if the solver
+/// can, and where it has not been found by leaps in three steps, those that have not leapt.
 std::vector<bool> predict(const StiffnessSolver& solver, const ContactProblem& problem,
                           const ContactSolution& solution, const std::vector<bool>& next) {
-  std::vector<bool> predicted = next;
-  move_ends(problem, solution, predicted);
-  if (!is_torn(solution.active) && !is_torn(next) && solution.history.size() < 3)
-    return predicted;
+  const bool tears = is_torn(solution.active) || is_torn(next);
+  const unsigned int steps = solution.history.size();
+  std::vector<bool> leapt = next;
+  move_ends(problem, solution, leapt);
+  if (!tears && steps < 3)
+    return leapt;
+  // A set that a torn one has led to is further off the more steps it has taken. Where the factor
+  // of the contact nodes does not fit into caches a sweep costs as much as a step.
+  constexpr unsigned int many_nodes = 1000, few_sweeps = 2, many_sweeps = 10;
+  unsigned int sweeps = few_sweeps;
+  if (problem.size() < many_nodes)
+    sweeps = tears ? many_sweeps * steps : many_sweeps;
   Vector<double> limit = problem.road;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    if (next[i] && !predicted[i])
+  for (unsigned int i = 0; !tears && i < problem.size(); ++i)
+    if (next[i] && !leapt[i])
       limit(i) = std::numeric_limits<double>::infinity();
   ContactState relaxed = solution.state;
-  if (solver.relax(limit, relaxed))
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
+  if (!solver.relax(limit, sweeps, relaxed))
+    return leapt == solution.active ? next : leapt;
+  std::vector<bool> predicted(problem.size());
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
   return predicted == solution.active ? next : predicted;
 }
 

@@ -104,9 +104,10 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
   return 0;
 }
 
-bool DirectSolver::relax(const Vector<double>& limit, ContactState& state) const {
+bool DirectSolver::relax(const Vector<double>& limit, unsigned int sweeps,
+                         ContactState& state) const {
   Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
-  schur->relax(contact_load, to_places(limit), displacement, force);
+  schur->relax(contact_load, to_places(limit), sweeps, displacement, force);
   state = {from_places(displacement), from_places(force)};
   return true;
 }

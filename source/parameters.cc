@@ -164,7 +164,7 @@ void declare(Declarations& keys, Parameters& p) {
                         {{"false", false}, {"true", true}},
                         "\"true\" or \"false\": whether to compute a guaranteed bound of the error "
                         "in the energy norm, with bounds of the energy from both sides; costs "
-                        "about a second linear solve.");
+                        "at most about another linear solve.");
   keys.add_choice<bool>("Load bounds", p.certificate.load_bounds,
                         {{"false", false}, {"true", true}},
                         "\"true\" or \"false\": whether to bound the work-conjugate load G from "

@@ -95,9 +95,9 @@ unsigned int SchurComplement::solve(const std::vector<bool>& pinned, const Vecto
 }
 
 void SchurComplement::relax(const Vector<double>& load, const Vector<double>& limit,
-                            Vector<double>& displacement, Vector<double>& force) const {
+                            unsigned int sweeps, Vector<double>& displacement,
+                            Vector<double>& force) const {
   constexpr double overrelaxation = 1.6;
-  constexpr int sweeps = 2;
   const unsigned int m = size();
   Vector<double> diagonal(m);
   for (unsigned int i = 0; i < m; ++i) {
@@ -113,7 +113,7 @@ void SchurComplement::relax(const Vector<double>& load, const Vector<double>& li
     subtract_row(i, 0, i + 1, displacement(i) - moved, y);
     displacement(i) = moved;
   };
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  for (unsigned int sweep = 0; sweep < sweeps; ++sweep) {
     for (unsigned int i = 0; i < m; ++i)
       visit(i);
     for (unsigned int i = m; i-- > 0;)

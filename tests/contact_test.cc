@@ -48,7 +48,7 @@ public:
   }
 
   Vector<double> response(const Vector<double>&, double) override { return {}; }
-  bool relax(const Vector<double>&, ContactState&) const override { return false; }
+  bool relax(const Vector<double>&, unsigned int, ContactState&) const override { return false; }
   FieldVector displacement_field(const ContactState&) override { return {}; }
   FieldVector apply(const FieldVector&) const override { return {}; }
 
