@@ -13,7 +13,8 @@ struct CellPlace {
   double size;
 };
 
-/// Of a mesh whose coarse cells are numbered with the radial index running fastest.
+/// Of a mesh whose coarse cells are numbered with the radial index running fastest, and all known
+/// to this process.
 class CellPlaces {
 public:
   explicit CellPlaces(const dealii::Triangulation<2>& triangulation);

@@ -30,7 +30,7 @@ public:
   virtual FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) = 0;
 };
 
-/// A TensorSolver where that suits, else of the @p kind direct or iterative.
+/// Of the @p kind direct, which is a TensorSolver where that suits, or iterative.
 std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space);
 
 } // namespace rollwave

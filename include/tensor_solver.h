@@ -28,8 +28,8 @@ class TensorSolver : public SymmetricSolver {
 public:
   explicit TensorSolver(const RingSpace& space) : space(space) {}
 
-  /// Whether a space has such a mesh, and one where this takes less time than a sparse
-  /// factorisation.
+  /// Whether a space on one process has such a mesh, and one where this takes less time than a
+  /// sparse factorisation.
   static bool suits(const RingSpace& space);
 
   void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,

@@ -65,6 +65,16 @@ bool is_torn(const std::vector<bool>& active) {
   return ends > 2;
 }
 
+/// Sweeps that bring a set nearer to the solution. Where contact is torn, one that has not been
+/// found after more steps needs more of them. Where the factor of the contact nodes does not fit
+/// into caches a sweep costs as much as a step.
+unsigned int count_sweeps(unsigned int n_nodes, bool tears, unsigned int steps) {
+  constexpr unsigned int many_nodes = 1000, few_sweeps = 2, many_sweeps = 10;
+  if (n_nodes >= many_nodes)
+    return few_sweeps;
+  return tears ? many_sweeps * steps : many_sweeps;
+}
+
 /// The set that is nearer to the solution than @p next, which nodes of the wrong sign have left or
 /// entered: the ends have leapt. Where contact is torn all nodes are relaxed instead if the solver
 /// can, and where it has not been found by leaps in three steps, those that have not leapt.
@@ -72,26 +82,19 @@ std::vector<bool> predict(const StiffnessSolver& solver, const ContactProblem& p
                           const ContactSolution& solution, const std::vector<bool>& next) {
   const bool tears = is_torn(solution.active) || is_torn(next);
   const unsigned int steps = solution.history.size();
-  std::vector<bool> leapt = next;
-  move_ends(problem, solution, leapt);
+  std::vector<bool> predicted = next;
+  move_ends(problem, solution, predicted);
   if (!tears && steps < 3)
-    return leapt;
-  // A set that a torn one has led to is further off the more steps it has taken. Where the factor
-  // of the contact nodes does not fit into caches a sweep costs as much as a step.
-  constexpr unsigned int many_nodes = 1000, few_sweeps = 2, many_sweeps = 10;
-  unsigned int sweeps = few_sweeps;
-  if (problem.size() < many_nodes)
-    sweeps = tears ? many_sweeps * steps : many_sweeps;
+    return predicted;
   Vector<double> limit = problem.road;
-  for (unsigned int i = 0; !tears && i < problem.size(); ++i)
-    if (next[i] && !leapt[i])
-      limit(i) = std::numeric_limits<double>::infinity();
+  if (!tears)
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      if (next[i] && !predicted[i])
+        limit(i) = std::numeric_limits<double>::infinity();
   ContactState relaxed = solution.state;
-  if (!solver.relax(limit, sweeps, relaxed))
-    return leapt == solution.active ? next : leapt;
-  std::vector<bool> predicted(problem.size());
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
+  if (solver.relax(limit, count_sweeps(problem.size(), tears, steps), relaxed))
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
   return predicted == solution.active ? next : predicted;
 }
 

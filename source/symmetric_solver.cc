@@ -90,10 +90,10 @@ private:
 } // namespace
 
 std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space) {
-  if (TensorSolver::suits(space))
-    return std::make_unique<TensorSolver>(space);
   if (kind == SolverKind::iterative)
     return std::make_unique<MultigridSolver>(space);
+  if (TensorSolver::suits(space))
+    return std::make_unique<TensorSolver>(space);
   return std::make_unique<CholeskySolver>(space);
 }
 

@@ -3,9 +3,8 @@
 #include "cell_places.h"
 #include "errors.h"
 #include "lexicographic_dofs.h"
-#include "processes.h"
+#include "memory.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace rollwave {
@@ -34,8 +33,7 @@ void add_products(const FullMatrix<double>& products, double weight,
 bool TensorSolver::suits(const RingSpace& space) {
   const auto& triangulation = space.dof_handler().get_triangulation();
   const CellPlaces places(triangulation);
-  return is_alone(space.communicator()) &&
-         triangulation.n_active_cells() == triangulation.n_cells(triangulation.n_levels() - 1) &&
+  return triangulation.n_active_cells() == triangulation.n_cells(triangulation.n_levels() - 1) &&
          places.n_radial() <= places.n_angular();
 }
 
@@ -47,6 +45,8 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
   const double per_size = 1 / cells.of(handler.begin_active()).size;
   const unsigned int n_radii = degree * std::lround(cells.n_radial() * per_size) + 1;
   n_angles = degree * std::lround(cells.n_angular() * per_size);
+  require_memory(sizeof(double) * (6. * n_radii * n_radii + 3. * n_radii * n_angles),
+                 "the diagonalisation of the dual problem");
 
   const ShapeProducts reference = reference_products(degree);
   angular_mass = angular_stiffness = BandedMatrix(2 * degree);
@@ -104,8 +104,8 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
   for (unsigned int k = 0; k < n_modes; ++k) {
     eigenvalues.push_back(stiffness.eigenvalue(k).real());
     if (!(eigenvalues.back() > 0))
-      throw NotSolved("a radial matrix is not positive definite: use radial cells of more nearly "
-                      "equal heights");
+      throw NotSolved("the radial problem is not positive definite but for round-off: raise "
+                      "Cylinder/Inner radius or lower Mesh/Radial cells");
     for (unsigned int i = 0; i < n_modes; ++i)
       modes(i, k) = vectors[k](i);
   }
