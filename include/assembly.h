@@ -14,11 +14,11 @@ namespace rollwave {
 
 struct Scene;
 
-/// A symmetric form on products of functions of r and z,
+/// A form on products R(r) Z(z),
 ///
-///     int (P_r(u, v) u_z v_z + S_r(u, v) u v) dz
+///     P(R, R') int Z_z Z'_z dz + S(R, R') int Z Z' dz,
 ///
-/// by its radial integrals over the interval [begin, end] of a cell: P_r as mass, S_r as stiffness.
+/// by its radial integrals over the interval [begin, end] of a cell, P as mass and S as stiffness.
 /// @return valid until the next call
 using RadialProducts = std::function<const ShapeProducts&(double begin, double end)>;
 

@@ -5,6 +5,7 @@
 #include "lexicographic_dofs.h"
 #include "memory.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace rollwave {
@@ -45,15 +46,15 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
   const double per_size = 1 / cells.of(handler.begin_active()).size;
   const unsigned int n_radii = degree * std::lround(cells.n_radial() * per_size) + 1;
   n_angles = degree * std::lround(cells.n_angular() * per_size);
-  require_memory(sizeof(double) * (6. * n_radii * n_radii + 3. * n_radii * n_angles),
+  require_memory(sizeof(double) * (4. * n_radii * n_radii + 3. * n_radii * n_angles),
                  "the diagonalisation of the dual problem");
 
   const ShapeProducts reference = reference_products(degree);
   angular_mass = angular_stiffness = BandedMatrix(2 * degree);
   angular_mass.grow(n_angles);
   angular_stiffness.grow(n_angles);
-  LAPACKFullMatrix<double> radial_mass(n_radii), radial_stiffness(n_radii);
-  std::vector<types::global_dof_index> all_dofs(n_radii * n_angles, numbers::invalid_dof_index);
+  LAPACKFullMatrix<double> mass(n_radii), stiffness(n_radii);
+  dofs.assign(n_radii * n_angles, numbers::invalid_dof_index);
   LexicographicDofs dofs_of_cells(handler);
   std::vector<unsigned int> angular_places(n);
   for (const auto& cell : handler.active_cell_iterators()) {
@@ -66,7 +67,7 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
         if (const auto dof = of_cell[i + n * j]; !constraints.is_constrained(dof))
-          all_dofs[(first_radius + i) * n_angles + angular_places[j]] = dof;
+          dofs[(first_radius + i) * n_angles + angular_places[j]] = dof;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     if (first_radius == 0) {
       add_products(reference.mass, high[1] - low[1], angular_places, angular_mass);
@@ -76,26 +77,19 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
       const ShapeProducts& products = radial(low[0], high[0]);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int k = 0; k < n; ++k) {
-          radial_mass(first_radius + i, first_radius + k) += products.mass(i, k);
-          radial_stiffness(first_radius + i, first_radius + k) += products.stiffness(i, k);
+          mass(first_radius + i, first_radius + k) += products.mass(i, k);
+          stiffness(first_radius + i, first_radius + k) += products.stiffness(i, k);
         }
     }
   }
 
-  std::vector<unsigned int> free_radii;
-  dofs.clear();
-  for (unsigned int i = 0; i < n_radii; ++i)
-    if (const auto line = all_dofs.begin() + i * n_angles; *line != numbers::invalid_dof_index) {
-      free_radii.push_back(i);
-      dofs.insert(dofs.end(), line, line + n_angles);
+  for (unsigned int i = n_radii; i-- > 0;)
+    if (dofs[i * n_angles] == numbers::invalid_dof_index) {
+      mass.remove_row_and_column(i, i);
+      stiffness.remove_row_and_column(i, i);
     }
-  const unsigned int n_modes = free_radii.size();
-  LAPACKFullMatrix<double> mass(n_modes), stiffness(n_modes);
-  for (unsigned int i = 0; i < n_modes; ++i)
-    for (unsigned int k = 0; k < n_modes; ++k) {
-      mass(i, k) = radial_mass(free_radii[i], free_radii[k]);
-      stiffness(i, k) = radial_stiffness(free_radii[i], free_radii[k]);
-    }
+  dofs.erase(std::remove(dofs.begin(), dofs.end(), numbers::invalid_dof_index), dofs.end());
+  const unsigned int n_modes = mass.m();
   std::vector<Vector<double>> vectors(n_modes);
   stiffness.compute_generalized_eigenvalues_symmetric(mass, vectors);
   ++work.diagonalisations;
