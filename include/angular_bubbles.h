@@ -28,11 +28,10 @@ struct BubbleColumns;
 class AngularBubbles {
 public:
   /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param force_load int G P psi_i / r dr dz for all radial shape functions of each active cell,
-  /// nullptr when G is a function of r, which does no work with them
+  /// @param force nullptr when G is a function of r, which does no work with them
   AngularBubbles(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
                  const FieldVector& potential, const std::vector<EdgePressure>& pressures,
-                 const std::vector<double>* force_load, const BubbleColumns& columns);
+                 const ForceIntegral* force, const BubbleColumns& columns);
 
   /// g at the radial Gauss-Lobatto points of a cell with the degrees of freedom @p dofs, the radial
   /// index running fastest.

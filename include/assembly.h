@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_ASSEMBLY_H
 #define ROLLWAVE_ASSEMBLY_H
 
-#include "load_breaks.h"
 #include "ring_space.h"
 #include "shape_products.h"
 
@@ -43,24 +42,10 @@ void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
  */
 RadialProducts stiffness_products(const RingSpace& space, const Scene& scene);
 
-/// What a force does to a mesh.
-struct Load {
-  FieldVector vector; ///< f_i = int r f phi_i dr dz with the constraints applied
-
-  /// r f at the points of the rule for whole cells on one own active cell after another, the radial
-  /// index running fastest; none when the force is a number
-  std::vector<double> moments;
-
-  LoadBreaks breaks; ///< none when the force is a number
-};
-
-/**
- * The load by Gauss' rule with degree + 1 points in each direction, on each of the parts into which
- * LoadBreaks cut a cell; the scene must have a force.
- *
- * @throws BadInput where f is not finite.
- */
-Load assemble_load(const RingSpace& space, const Scene& scene);
+/// f_i = int r f phi_i dr dz by Gauss' rule with degree + 1 points in each direction, with the
+/// constraints applied; the scene must have a force.
+/// @throws BadInput where f is not finite.
+FieldVector assemble_load(const RingSpace& space, const Scene& scene);
 
 } // namespace rollwave
 

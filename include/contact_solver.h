@@ -4,6 +4,7 @@
 #include "parameters.h"
 #include "stiffness_solver.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,7 +51,7 @@ struct ContactSolution {
   std::string remark = ""; ///< anything unusual the user should know
 
   /// Where the user has interrupted the iteration: after what, and what is missing.
-  std::string shortfall = "";
+  std::optional<std::string> shortfall;
 };
 
 /// Solves by the method of @p parameters, beginning with the contact pressures @p start (none when

@@ -58,6 +58,9 @@ public:
   /// Any text but the empty one.
   void add_text(const std::string& key, std::string& value, const std::string& text);
 
+  /// A key of earlier versions: setting it is refused with @p advice.
+  void refuse(const std::string& section, const std::string& key, const std::string& advice);
+
   /// Hands @p settings to the declared keys, the later the stronger. @throws BadInput naming the
   /// setting that is not admitted and what is, or the nearest known keys.
   void apply(const std::vector<Setting>& settings) const;
@@ -68,6 +71,7 @@ private:
   dealii::ParameterHandler& prm;
   std::string section;
 
+  std::map<std::string, std::string> refused; ///< advice by path
   /// Keys and their texts, by section.
   std::map<std::string, std::vector<std::pair<std::string, std::string>>> texts;
 };

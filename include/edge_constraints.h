@@ -15,14 +15,9 @@ namespace rollwave {
 /// end.
 using RadialShapeValues = std::function<std::vector<double>(double r, double begin, double end)>;
 
-/// What is added to a function on a cell with the angular interval from @p begin to @p end, at
-/// whose ends it vanishes, at the radius r and the angle z. On a part of the interval it differs
-/// from that of the part by a polynomial of the element's degree in z.
-using CellAddend = std::function<double(double r, double z, double begin, double end)>;
-
 /**
- * Adds the constraints that make a function that becomes continuous over hanging nodes, with the
- * @p addend, and, up to a constant, over the seam: u(r, z + 2 pi) = u(r, z) + @p growth. On each
+ * Adds the constraints that make a function continuous over hanging nodes and, up to a constant,
+ * over the seam: u(r, z + 2 pi) = u(r, z) + @p growth. On each
  * cell u is a combination of products of polynomials in z and the functions of r that @p shapes
  * evaluates, with nodes at Gauss-Lobatto points in both directions; deal.II's own constraints are
  * for polynomials only.
@@ -32,7 +27,7 @@ using CellAddend = std::function<double(double r, double z, double begin, double
  * left as they are.
  */
 void tie_edges(const RingSpace& space, const RadialShapeValues& shapes, double growth,
-               const CellAddend& addend, dealii::AffineConstraints<double>& constraints);
+               dealii::AffineConstraints<double>& constraints);
 
 /// The nodes on an edge from its first vertex to its second.
 std::vector<dealii::types::global_dof_index>

@@ -16,15 +16,10 @@ struct MeshSolution {
   Residuals residuals;
 };
 
-/// Makes the parts of @p system, which is that of the same space, that belong to the load, unless
-/// it has them.
-/// @throws BadInput where the force is not finite, NotSolved where the load is beyond numbers
-void make_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-               MeshSystem& system, Work& work);
-
 /// Solves @p scene on @p space by the methods of @p parameters, beginning with the contact
 /// pressures @p start (none when it has no entries). @p system is that of the same space.
-/// @throws as make_load(), NotSolved when a solver fails.
+/// @throws BadInput where the force is not finite, NotSolved when a solver fails or a number is beyond
+/// what numbers can hold.
 MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
                            const dealii::Vector<double>& start, MeshSystem& system, Work& work);
 

@@ -3,58 +3,43 @@
 
 #include "bubble_columns.h"
 #include "dual_potential.h"
-#include "force_contribution.h"
+#include "force_integral.h"
 #include "solver_choice.h"
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace rollwave {
 
-/// What the certificates of scenes on one mesh with one speed and one force share.
-struct DualParts {
-  /// @param force the text of the scene's force, empty without force
-  /// @param moments those of its Load
-  /// @param breaks likewise
-  /// @param constraints those of the DualPotential, but for inhomogeneities
-  /// @throws BadInput where the force is not finite
-  DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-            const std::vector<double>& moments, const LoadBreaks& breaks,
-            const dealii::AffineConstraints<double>& constraints);
+/// What the certificates of scenes on one mesh with one speed share, and of one force.
+struct DualProblem {
+  /// @throws BadInput where the force is not finite, NotSolved when memory is short
+  DualProblem(const RingSpace& space, const Scene& scene, SolverKind kind, Work& work);
 
-  /// Whether they are those of a scene with this force.
-  bool belong_to(const Scene& scene, const std::string& force) const;
+  /// Turns to a scene of the same speed. @throws BadInput where the force is not finite
+  void turn_to(const RingSpace& space, const Scene& scene);
 
-  /// Whether G has values that Gauss' rule of the element in z does not integrate exactly.
-  bool has_uneven_force() const { return interpolant && !interpolant->is_exact(); }
+  /// nullptr where G is a function of r alone, which does no work on potentials.
+  const ForceIntegral* uneven_force(const Scene& scene) const {
+    return scene.has_uneven_force() ? &*force : nullptr;
+  }
 
-  const double angular_velocity;
-  const std::string force;
+  double angular_velocity;
   RadialShapesOfMesh shapes;
-  const RadialExtents extents;                 ///< of no cells without an uneven force
-  std::optional<ForceInterpolant> interpolant; ///< nullopt without force
-  ForceJumps jumps;                            ///< none without an uneven force
-  const dealii::QGauss<1> gauss;               ///< for the bound's integrals along z
-  std::optional<ForceColumns> columns;         ///< with lines at its points
-  std::optional<ForceContribution> of_force;   ///< of an uneven one
+  DualPotential potential;
+  BubbleColumns bubbles;
+  std::string force_text;             ///< of the scene that what follows belongs to
+  std::optional<ForceIntegral> force; ///< nullopt without force
 };
 
 /// What scenes on one mesh share. Each part is made when it is first needed and turned to another
-/// scene at the cost of what differs; a part that is dropped is made again.
+/// scene at the cost of what differs.
 struct MeshSystem {
   SolverChoice stiffness; ///< its kind outlives the solver
-  std::unique_ptr<DualPotential> potential;
-  std::optional<BubbleColumns> bubbles; ///< of the same speed
-  std::unique_ptr<DualParts> dual;
+  std::unique_ptr<DualProblem> dual;
   std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
-  std::vector<double> moments;     ///< of the same Load
-  LoadBreaks breaks;               ///< likewise
-  std::string force;               ///< the text of the force that the load belongs to
-  bool is_kept = true; ///< whether another scene may come; else solvers go when they have solved
+  std::string force_text;          ///< of the scene that the load belongs to
 };
 
 } // namespace rollwave

@@ -53,7 +53,7 @@ enum class Marking {
   all
 };
 
-enum class OutputFile { summary, contact, parameters, solution, plot, mesh };
+enum class OutputFile { summary, contact, parameters, solution, plot };
 
 /**
  * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
@@ -115,9 +115,7 @@ struct Parameters {
     std::vector<std::vector<Setting>> vary;
     std::vector<std::optional<unsigned int>> published_steps;
     bool true_errors = false;
-    bool continue_meshes = false;
     unsigned int processes_per_scene = 0; ///< 0: all of them
-    unsigned int reference_unknowns = 300000;
   } study;
 
   struct {

@@ -2,7 +2,6 @@
 #define ROLLWAVE_RADIAL_SHAPES_H
 
 #include "interval_map.h"
-#include "load_breaks.h"
 #include "radial_rule.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -38,16 +37,15 @@ struct RadialShapes {
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;
 
-  /// int w psi_i / r dr, psi_i the potential's shape functions, by the rule.
-  void integrate_over_r(const std::vector<double>& w, std::vector<double>& integrals) const;
+  /// int w psi_i / r dr, psi_i the potential's shape functions, by the rule, for w at its points.
+  void integrate_over_r(const double* w, std::vector<double>& integrals) const;
 };
 
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
 class RadialShapesOfMesh {
 public:
-  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact, between
-  /// the radii of @p breaks.
-  RadialShapesOfMesh(const Scene& scene, unsigned int degree, const LoadBreaks& breaks);
+  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
+  RadialShapesOfMesh(const Scene& scene, unsigned int degree);
 
   const RadialShapes& on(double begin, double end);
 
@@ -57,14 +55,10 @@ public:
   /// The rule of an interval, or of each of the pieces that it is cut into.
   dealii::QGauss<1> gauss(double begin, double end) const;
 
-  /// @p points on each of these pieces.
-  RadialRule rule(double begin, double end, const dealii::Quadrature<1>& points) const;
-
 private:
   RadialShapes make(double begin, double end) const;
 
   const Scene scene;
-  const LoadBreaks breaks;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
   IntervalMap<RadialShapes> known;
 };

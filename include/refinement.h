@@ -31,9 +31,6 @@ bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking m
  * cut gains no more than a factor of 2 in eta_K^2, are not behind the others. Such cuts end where
  * there would be more than four times the cells.
  *
- * Where @p coarsens, four parts of a cell are first made one again if that would have less than
- * half of the squared indicator of the last cell marked, by the same rule.
- *
  * With a cell those of its level above and below are cut, as far as what varies over its length
  * reaches.
  *
@@ -41,12 +38,11 @@ bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking m
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
  * and at corners as well. Cells of level 29 are not cut: CellId and p4est have no room beyond.
  *
- * @return false, the mesh being left as it is, when no cell is marked or none fits, and none is
- *         coarsened
+ * @return false, the mesh being left as it is, when no cell is marked or none fits
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,
-                 unsigned int degree, double most_cells, bool coarsens);
+                 unsigned int degree, double most_cells);
 
 /// Whether there are cells that refine_mesh() cannot cut.
 bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);

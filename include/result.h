@@ -27,6 +27,7 @@ struct Energy {
 /// What a Certificate guarantees.
 struct CertifiedError {
   double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
+  double force_data;   ///< its share delta for what the points miss of the force, see ForceIntegral
   double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
   double lower_bound;  ///< of J(u)
   double upper_bound;  ///< of J(u), the energy J(v)
@@ -66,11 +67,11 @@ struct Residuals {
 /// What the residuals of a solved scene are to be: relative to its data.
 constexpr double wanted_residual = 1e-10;
 
-/// Errors against a Reference.
+/// Errors against the exact solution.
 struct TrueErrors {
   double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
   double relative_energy_norm; ///< over that of u
-  bool is_resolved;            ///< whether the reference is good enough to tell energy norms
+  bool is_resolved;            ///< whether the exact solution is accurate enough to tell it
   double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
   double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
   double force;                ///< |F - F_h|
@@ -122,13 +123,17 @@ struct Result {
   std::vector<ContactStep> history; ///< on the last mesh
   double rho;                       ///< Uzawa's step length; 0 for the active set method
   std::vector<std::string> remarks; ///< what a reader of the figures should know
-  std::string shortfall; ///< what was wanted and not reached, with the key to change; mostly empty
-  bool is_interrupted = false; ///< by the user: the shortfall says after what
+  /// What was wanted and not reached, with the keys to change.
+  std::vector<std::string> shortfalls;
+  bool is_interrupted = false; ///< by the user: the shortfalls say after what
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
   Work work;
   double peak_memory_mib = 0; ///< the largest of all processes
 };
+
+/// The shortfalls with "; " between them.
+std::string shortfall_text(const Result& result);
 
 /// The same with lengths in the user's lengths, of which @p unit is Scene::unit: what is a length
 /// is multiplied by it, energies by its square.

@@ -24,7 +24,6 @@ struct Study {
  *
  * After each run study.csv is written to @p directory. When the directory holds the rows of the
  * same study, that is beside a parameters.prm with the same text, only the missing runs are made.
- * Where a run continues the mesh of the run before, that takes all runs since the mesh was begun.
  *
  * On several processes all of them make each run together, or groups of `Study/Processes per scene`
  * make several at a time; the first of them writes.

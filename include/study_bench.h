@@ -12,7 +12,7 @@
 namespace rollwave {
 
 /// Makes the runs of a study one after the other on the same processes. They share meshes,
-/// factorisations and the references that errors are measured against, where they can.
+/// factorisations and exact solutions, where they can.
 class StudyBench {
 public:
   /// @param plans all runs of the study. Where the zone of contact is left to the program, those
@@ -24,9 +24,6 @@ public:
   /// A run, with the reason where it cannot be solved.
   /// @throws Interrupted also when there is a result that lacks something.
   StudyRun make(const RunPlan& plan);
-
-  /// Lets the next run begin its mesh anew.
-  void forget_mesh();
 
 private:
   struct Shared;

@@ -19,9 +19,6 @@ struct RunPlan {
 /// The runs of a study in their order. @throws BadInput when a setting of one is refused.
 std::vector<RunPlan> plan_runs(const Parameters& parameters);
 
-/// Whether a run begins with the mesh that the run before has ended with, where it can share it.
-bool continues_mesh(const Parameters& parameters);
-
 /// Runs that have this in common can share a mesh.
 inline auto mesh_key(const Parameters& parameters) {
   const auto& mesh = parameters.mesh;

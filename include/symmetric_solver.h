@@ -24,10 +24,8 @@ public:
   virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                           const RadialProducts& radial, Work& work) = 0;
 
-  /// The solution for @p rhs and, unless it is nullptr, a @p lasting one added, which is prepared
-  /// once for calls that have it in common. Both obey homogeneous constraints; the solution is zero
-  /// where a constraint holds.
-  virtual FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) = 0;
+  /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
+  virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
 };
 
 /// Of the @p kind direct, which is a TensorSolver where that suits, or iterative.

@@ -34,7 +34,7 @@ public:
 
   void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                   const RadialProducts& radial, Work& work) override;
-  FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) override;
+  FieldVector solve(const FieldVector& rhs, Work& work) override;
 
 private:
   const RingSpace& space;

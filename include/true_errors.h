@@ -2,14 +2,14 @@
 #define ROLLWAVE_TRUE_ERRORS_H
 
 #include "certificate.h"
-#include "reference.h"
+#include "exact_solution.h"
 #include "result.h"
 
 namespace rollwave {
 
 /**
- * The errors of a discrete solution against a reference. The energy norm needs no quadrature of
- * gradients: with the pressure lambda of the reference,
+ * The errors of a discrete solution against the exact one. The energy norm needs no quadrature of
+ * gradients: with the exact pressure lambda,
  *
  *     a(u - u_h, u - u_h) = a(u, u) - 2 a(u, u_h) + a(u_h, u_h),
  *     a(u, u_h) = (f, u_h) - b int lambda u_h dz.
@@ -21,12 +21,12 @@ namespace rollwave {
  *
  * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
  *
- * @p reference must be the solution of the scene that @p result and @p field solve on @p space;
+ * @p exact must be the solution of the scene that @p result and @p field solve on @p space;
  * @p certificate, where there is one, that of this solution.
  */
 TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
                                const Result& result, const std::optional<Certificate>& certificate,
-                               const Reference& reference);
+                               const ExactSolution& exact);
 
 } // namespace rollwave
 

@@ -53,12 +53,12 @@ struct AngularIntegrals {
 std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
                                   RadialShapesOfMesh& shapes, const FieldVector& potential,
                                   const std::vector<EdgePressure>& pressures,
-                                  const std::vector<double>* force_load,
-                                  const BubbleColumns& columns) {
+                                  const ForceIntegral* force, const BubbleColumns& columns) {
   const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
   const AngularIntegrals integrals(degree);
   LexicographicDofs dofs(space.dof_handler());
-  std::vector<double> psi_bubble(n);
+  const auto mode = AngularBubbles::mode(degree);
+  std::vector<double> psi_bubble(n), force_on_line(n);
   std::vector<double> load_of_row(columns.form.size());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -76,9 +76,13 @@ std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int k = 0; k < n; ++k)
         load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
-    if (force_load)
+    for (unsigned int p = 0; force && p < force->rule().size(); ++p) {
+      radial.integrate_over_r(force->on_line(cell->active_cell_index(), p), force_on_line);
+      const double weight =
+          length * force->rule().weight(p) * mode.value(force->rule().point(p)[0]);
       for (unsigned int i = 0; i < n; ++i)
-        load[i] += (*force_load)[n * cell->active_cell_index() + i];
+        load[i] += weight * force_on_line[i];
+    }
   }
   for (const auto& [row, edge] : columns.surface_rows) {
     if (!(pressures[edge].mean > 0))
@@ -101,11 +105,11 @@ Polynomials::Polynomial<double> AngularBubbles::mode(unsigned int degree) {
 AngularBubbles::AngularBubbles(const RingSpace& space, const Scene& scene,
                                RadialShapesOfMesh& shapes, const FieldVector& potential,
                                const std::vector<EdgePressure>& pressures,
-                               const std::vector<double>* force_load, const BubbleColumns& columns)
+                               const ForceIntegral* force, const BubbleColumns& columns)
     : n(space.dof_handler().get_fe().degree + 1), field(space.make_field()) {
   ColumnForm form = columns.form;
   std::vector<double> load_of_row =
-      assemble_load(space, scene, shapes, potential, pressures, force_load, columns);
+      assemble_load(space, scene, shapes, potential, pressures, force, columns);
   std::vector<BubbleColumns::SurfaceRow> free_rows; // where pressures can change
   for (const auto& surface_row : columns.surface_rows)
     if (pressures[surface_row.edge].mean > 0)

@@ -8,12 +8,10 @@
 #include "scene.h"
 #include "shape_products.h"
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <cmath>
-#include <functional>
 
 namespace rollwave {
 
@@ -72,78 +70,35 @@ RadialProducts stiffness_products(const RingSpace& space, const Scene& scene) {
   };
 }
 
-namespace {
-
-/// r f at a point of the ring.
-using Moment = std::function<double(const Point<2>&)>;
-
-/// Adds int r f phi_i dr dz over a rectangle of a cell.
-void add_load(const Moment& moment, const FiniteElement<2>& element, const QGauss<2>& gauss,
-              const BoundingBox<2>& cell, const BoundingBox<2>& part, Vector<double>& load) {
-  for (unsigned int q = 0; q < gauss.size(); ++q) {
-    const Point<2> point = part.unit_to_real(gauss.point(q));
-    const double weight = gauss.weight(q) * part.volume() * moment(point);
-    for (unsigned int i = 0; i < load.size(); ++i)
-      load(i) += weight * element.shape_value(i, cell.real_to_unit(point));
-  }
-}
-
-} // namespace
-
-Load assemble_load(const RingSpace& space, const Scene& scene) {
+FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   const auto& element = space.dof_handler().get_fe();
-  const QGauss<2> gauss(element.degree + 1);
-  FEValues<2> values(space.mapping(), element, gauss,
+  FEValues<2> values(space.mapping(), element, QGauss<2>(element.degree + 1),
                      update_values | update_quadrature_points | update_JxW_values);
   Vector<double> cell_vector(element.n_dofs_per_cell());
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  Load load = {space.make_field(), {}, {}};
-  if (!scene.uniform_force)
-    load.breaks =
-        find_load_breaks(scene, space.dof_handler().get_triangulation().n_global_active_cells(),
-                         space.communicator());
+  FieldVector load = space.make_field();
   std::string refusal;
-  const Moment moment = [&](const Point<2>& point) {
-    const double r = point[0], z = std::fmod(point[1], 2 * numbers::PI), f = scene.force(r, z);
-    if (!std::isfinite(f) && refusal.empty())
-      refusal = force_not_finite_at(scene, r, z);
-    return r * f;
-  };
-
-  // The load of a cell that is cut: the rule on the whole does not know it.
-  const auto replace_where_cut = [&](const BoundingBox<2>& box, Vector<double>& cell_load) {
-    const auto radii = load.breaks.radial_ends(box.lower_bound(0), box.upper_bound(0)),
-               angles = load.breaks.angular_ends(box.lower_bound(1), box.upper_bound(1));
-    if (radii.size() == 2 && angles.size() == 2)
-      return;
-    cell_load = 0;
-    for (unsigned int i = 0; i + 1 < radii.size(); ++i)
-      for (unsigned int j = 0; j + 1 < angles.size(); ++j)
-        add_load(moment, element, gauss, box,
-                 {{{radii[i], angles[j]}, {radii[i + 1], angles[j + 1]}}}, cell_load);
-  };
-
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
     values.reinit(cell);
     cell_vector = 0;
     for (const unsigned int q : values.quadrature_point_indices()) {
-      const double moment_here = moment(values.quadrature_point(q));
-      if (!scene.uniform_force)
-        load.moments.push_back(moment_here);
+      const double r = values.quadrature_point(q)[0],
+                   z = std::fmod(values.quadrature_point(q)[1], 2 * numbers::PI),
+                   f = scene.force(r, z);
+      if (!std::isfinite(f) && refusal.empty())
+        refusal = force_not_finite_at(scene, r, z);
       for (const unsigned int i : values.dof_indices())
-        cell_vector(i) += moment_here * values.shape_value(i, q) * values.JxW(q);
+        cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q); // r dr dz is the area
     }
-    if (!load.breaks.empty())
-      replace_where_cut(cell->bounding_box(), cell_vector);
     cell->get_dof_indices(dofs);
-    space.constraints().distribute_local_to_global(cell_vector, dofs, load.vector);
+    space.constraints().distribute_local_to_global(cell_vector, dofs, load);
   }
   refusal = first_text(space.communicator(), refusal);
   if (!refusal.empty())
     throw BadInput(refusal);
-  load.vector.compress(VectorOperation::add);
+  load.compress(VectorOperation::add);
   return load;
 }
 

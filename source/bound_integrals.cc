@@ -1,27 +1,16 @@
 #include "bound_integrals.h"
 
 #include "angular_bubbles.h"
-#include "constant_size.h"
-#include "force_columns.h"
-#include "force_integrals.h"
-#include "interval_map.h"
 #include "lexicographic_dofs.h"
 #include "mesh_system.h"
-#include "parameters.h"
-#include "potential_kinks.h"
-#include "radial_shapes.h"
 #include "scene.h"
 #include "shape_products.h"
-#include "task_beside.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
-#include <optional>
 #include <utility>
 
 namespace rollwave {
@@ -30,26 +19,21 @@ using namespace dealii;
 
 namespace {
 
-using IntegratedCell = DoFHandler<2>::active_cell_iterator;
-
-/// At the nodes on one side of a cell.
-using LineValues = std::array<double, highest_degree + 1>;
-
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
   double t;
-  LineValues value, derivative; ///< the latter d/dt
-  double bubble;                ///< of AngularBubbles: beta
-  double mode;                  ///< P
+  std::vector<double> value, derivative; ///< the latter d/dt
+  double bubble;                         ///< of AngularBubbles: beta
+  double mode;                           ///< P
 
   AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
                 const Polynomials::Polynomial<double>& beta, double t)
       : t(t) {
     double both[2];
-    for (unsigned int j = 0; j < lagrange.size(); ++j) {
-      lagrange[j].value(t, 1, both);
-      value[j] = both[0];
-      derivative[j] = both[1];
+    for (const auto& polynomial : lagrange) {
+      polynomial.value(t, 1, both);
+      value.push_back(both[0]);
+      derivative.push_back(both[1]);
     }
     beta.value(t, 1, both);
     bubble = both[0];
@@ -62,31 +46,30 @@ struct AngularShapes {
 template <typename Number>
 struct Integrals {
   Number bound_squared = 0; ///< of eta^2 without the road's term
-  Number norm_squared = 0;  ///< of a(v, v)
-  Number work_of_force = 0; ///< of (f_0, v) = int G v_r dr dz
-  Number work_of_rest = 0;  ///< of (f_0, v - u_h)
+  Number norm_squared = 0;
+  Number work_of_force = 0;
+  Number work_of_correction = 0;
 
   template <typename Other>
   void add(const Integrals<Other>& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
-    work_of_rest += weight * other.work_of_rest;
+    work_of_correction += weight * other.work_of_correction;
   }
 };
-
 using LineIntegrals = Integrals<double>;
 using Sums = Integrals<long double>;
 
-class Integrator {
+/// The integrands on one cell after another.
+class Integrand {
 public:
-  Integrator(const RingSpace& space, const FieldVector& displacement, const FieldVector& potential,
-             const AngularBubbles& bubbles, const DualParts& dual)
+  Integrand(const RingSpace& space, const FieldVector& displacement, const FieldVector& potential,
+            const AngularBubbles& bubbles, DualProblem& dual)
       : displacement(displacement), potential(potential), bubbles(bubbles), dual(dual),
-        columns(dual.columns ? &*dual.columns : nullptr),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
         beta(AngularBubbles::mode(n - 1).primitive()), dofs(space.dof_handler()), u(n * n),
-        psi(n * n), g(n) {
+        psi(n * n), g(n), line_u(n), line_u_z(n), line_psi(n), line_psi_z(n) {
     const Polynomials::Legendre highest(n);
     const QGauss<1> gauss(n + 1);
     for (unsigned int q = 0; q < gauss.size(); ++q) {
@@ -95,54 +78,31 @@ public:
     }
   }
 
-  void reinit(const IntegratedCell& cell) {
+  void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
     low = cell->vertex(0);
     high = cell->vertex(3);
     length = high[1] - low[1];
-    per_length = 1 / length;
-    per_height = 1 / (high[0] - low[0]);
-    radial = &dual.shapes.made_on(low[0], high[0]);
+    height = high[0] - low[0];
+    number = cell->active_cell_index();
+    radial = &dual.shapes.on(low[0], high[0]);
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < of_cell.size(); ++i) {
       u[i] = displacement(of_cell[i]);
       psi[i] = potential(of_cell[i]);
     }
     bubbles.values(of_cell, g);
-    if (!columns)
-      return;
-    if (columns->has_equal_lines())
-      equal_moments = &known_moments.at(low[0], high[0], [&] {
-        std::vector<double> on_any_line;
-        ForceAtRadii(radial->r).integrals(columns->at(0, low[0]), on_any_line);
-        return on_any_line;
-      });
-    else {
-      lines = &columns->made_on(low[1], high[1]);
-      at_radii = &known_radii.at(low[0], high[0], [&] { return ForceAtRadii(radial->r); });
-      kinks = kinks_of_cell(dual.jumps, low, high, n - 1);
-    }
   }
 
-  /// The lines of a force whose rule along z is not that of the cell; nullptr without them.
-  const ForceLines* own_lines() const {
-    return lines && !lines->has_rule_of_cell() ? lines : nullptr;
+  /// On the line number @p p of the rule along z, where v = u_h.
+  LineIntegrals on_line(const AngularShapes& angular, unsigned int p) {
+    return on_line(angular, {0, 0, 0}, dual.force ? dual.force->on_line(number, p) : nullptr);
   }
 
-  /// G at the radii of the rule, on the line number @p p of the rule along z and on any line of the
-  /// cell; nullptr without force.
-  const std::vector<double>* moments_on(unsigned int p) {
-    return lines ? &moments_of(lines->columns[p]) : equal_moments;
-  }
-  const std::vector<double>* moments_at(double t) {
-    return lines ? &moments_of(columns->at(low[1] + t * (high[1] - low[1]), low[0]))
-                 : equal_moments;
-  }
-
-  /// On one line, with the correction c of v on the surface.
-  LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
-                        const std::vector<double>* moments) const {
-    return with_constant_size(
-        n, [&](auto size) { return on_line_of(size, angular, correction, moments); });
+  /// On any line, with the correction c of v on the surface.
+  LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction) {
+    if (dual.force)
+      dual.force->on_line_at(number, angular.t, moments);
+    return on_line(angular, correction, dual.force ? moments.data() : nullptr);
   }
 
   /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
@@ -161,24 +121,15 @@ public:
 
   /// g on r = b.
   double surface_bubble() const { return g.back(); }
+
   double angular_length() const { return length; }
-  bool ends_at(double radius) const { return high[0] == radius; }
+
   AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
-  std::vector<AngularShapes> angular_shapes(const Quadrature<1>& rule) const {
-    std::vector<AngularShapes> shapes;
-    for (const auto& point : rule.get_points())
-      shapes.push_back(angular_shapes(point[0]));
-    return shapes;
-  }
 
 private:
-  /// With @p n shape functions in each direction.
-  template <typename Size>
-  LineIntegrals on_line_of(Size n, const AngularShapes& angular,
-                           const FeasibleTrace::Correction& correction,
-                           const std::vector<double>* moments) const {
-    // Coefficients along the line of u, psi and their angular derivatives
-    LineValues line_u, line_u_z, line_psi, line_psi_z;
+  /// @param moments G_h at the radii of the cell; nullptr without force
+  LineIntegrals on_line(const AngularShapes& angular, const FeasibleTrace::Correction& correction,
+                        const double* moments) {
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -187,50 +138,39 @@ private:
         line_psi[i] += angular.value[j] * psi[i + n * j];
         line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
-      line_u_z[i] *= per_length;
+      line_u_z[i] /= length;
       line_psi[i] += length * angular.bubble * g[i];
-      line_psi_z[i] = per_length * line_psi_z[i] + angular.mode * g[i];
+      line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
     }
-    if (kinks)
-      kinks->add_to(angular.t, line_psi.data(), line_psi_z.data());
-    const double correction_r = correction.value * per_height;
-    double bound_squared = 0, norm_squared = 0, work_of_force = 0, work_of_rest = 0;
+    const double correction_r = correction.value / height;
+    LineIntegrals sums;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
-      const double xi = (r - low[0]) * per_height;
-      double v_r = correction_r, v_z = correction.slope * xi;
+      double v_r = correction_r, v_z = correction.slope * (r - low[0]) / height;
       double psi_s = 0, psi_z = 0;
-      const RadialShape* const shapes_at = &radial->shapes[n * q];
       for (unsigned int i = 0; i < n; ++i) {
-        const RadialShape& shape = shapes_at[i];
+        const RadialShape& shape = radial->shapes[n * q + i];
         v_r += shape.derivative * line_u[i];
         v_z += shape.value * line_u_z[i];
         psi_s += shape.potential_s * line_psi[i];
         psi_z += shape.potential * line_psi_z[i];
       }
-      const double moment = moments ? (*moments)[q] : 0;
-      const double radial_flux = moment - psi_z; // r tau_r
-      // tau_z = -alpha psi_s
-      const double z_part = psi_s + v_z, r_part = radial_flux - r * v_r;
-      bound_squared +=
+      const double moment = moments ? moments[q] : 0;
+      const double z_part = psi_s + v_z;             // tau_z = -alpha psi_s
+      const double r_part = moment - psi_z - r * v_r; // r tau_r = G - psi_z
+      sums.bound_squared +=
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
-      norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
-      work_of_force += weight * moment * v_r;
-      work_of_rest += weight * moment * correction_r;
+      sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
+      sums.work_of_force += weight * moment * v_r;
+      sums.work_of_correction += weight * moment * correction_r;
     }
-    return {bound_squared, norm_squared, work_of_force, work_of_rest};
-  }
-
-  const std::vector<double>& moments_of(const ForceColumn& column) {
-    at_radii->integrals(column, moments);
-    return moments;
+    return sums;
   }
 
   const FieldVector& displacement;
   const FieldVector& potential;
   const AngularBubbles& bubbles;
-  const DualParts& dual;
-  const ForceColumns* const columns;
+  DualProblem& dual;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const Polynomials::Polynomial<double> beta;
@@ -239,80 +179,32 @@ private:
   std::vector<double> u, psi; ///< values at those of the cell
   std::vector<double> g;      ///< of the bubbles
   Point<2> low, high;
-  double length = 0, per_length = 0, per_height = 0; ///< in z and in r
+  double length = 0, height = 0;
+  unsigned int number = 0; ///< of the active cell
   const RadialShapes* radial = nullptr;
-  const ForceLines* lines = nullptr; ///< of a force that is no number
-  ForceAtRadii* at_radii = nullptr;
-  IntervalMap<ForceAtRadii> known_radii;
-  IntervalMap<std::vector<double>> known_moments;
-  std::optional<PotentialKinks> kinks;                ///< where there are any
-  std::vector<double> moments;                        ///< G on a line
-  const std::vector<double>* equal_moments = nullptr; ///< of a number
+  /// Of u, psi and their angular derivatives along a line, and G_h there.
+  std::vector<double> line_u, line_u_z, line_psi, line_psi_z, moments;
 };
 
-/// The ends of a piece of an edge, and those of panels in between.
-std::vector<double> ends_of_parts(const FeasibleTrace::Piece& piece, const ForceLines* own) {
-  std::vector<double> ends = {piece.t_begin};
-  if (own)
-    for (const double t : own->ends)
-      if (piece.t_begin < t && t < piece.t_end)
-        ends.push_back(t);
-  ends.push_back(piece.t_end);
-  return ends;
-}
-
-/// The integrals over the own cells from @p begin to @p end.
-Sums integrate_cells(const RingSpace& space, const Scene& scene, const FeasibleTrace& trace,
-                     const std::vector<EdgePressure>& pressures, const DualParts& dual,
-                     Integrator integrator, const IntegratedCell& begin, const IntegratedCell& end,
-                     std::vector<double>& cell_bounds) {
-  const unsigned int degree = space.dof_handler().get_fe().degree;
-  const QGauss<1>& gauss = dual.gauss;
-  const QGauss<1> along_road(degree + 6);
-  const std::vector<AngularShapes> shapes_of_gauss = integrator.angular_shapes(gauss);
-  IntervalMap<std::vector<AngularShapes>> own_shapes;
-  Sums total;
-  for (IntegratedCell cell = begin; cell != end; ++cell) {
-    if (!cell->is_locally_owned())
-      continue;
-    integrator.reinit(cell);
-    const double length = integrator.angular_length();
-    LineIntegrals sums;
-    double contact_work = 0;
-    const auto face =
-        integrator.ends_at(scene.outer_radius) ? space.surface_face(cell) : std::nullopt;
-    const ForceLines* const own = integrator.own_lines();
-    if (!face) {
-      const Quadrature<1>& rule = own ? own->rule : gauss;
-      const auto& lines = own ? own_shapes.at(cell->vertex(0)[1], cell->vertex(3)[1],
-                                              [&] { return integrator.angular_shapes(rule); })
-                              : shapes_of_gauss;
-      for (unsigned int p = 0; p < rule.size(); ++p)
-        sums.add(integrator.on_line(lines[p], {0, 0, 0}, integrator.moments_on(p)),
-                 rule.weight(p) * length);
-      if (!dual.has_uneven_force())
-        sums.bound_squared += integrator.unseen_square();
-    } else
-      for (const auto& piece : trace.pieces(*face)) {
-        const std::vector<double> ends = ends_of_parts(piece, own);
-        for (unsigned int part = 0; part + 1 < ends.size(); ++part)
-          for (unsigned int p = 0; p < along_road.size(); ++p) {
-            const double share = ends[part + 1] - ends[part];
-            const double t = ends[part] + share * along_road.point(p)[0];
-            const double weight = along_road.weight(p) * share * length;
-            const auto correction = trace.correction(*face, piece, t);
-            const AngularShapes angular = integrator.angular_shapes(t);
-            const double pressure = pressures[*face](t) +
-                                    integrator.surface_bubble() / scene.outer_radius * angular.mode;
-            sums.add(integrator.on_line(angular, correction, integrator.moments_at(t)), weight);
-            contact_work += weight * scene.outer_radius * pressure * correction.gap;
-          }
-      }
-    sums.bound_squared += 2 * contact_work;
-    cell_bounds[cell->active_cell_index()] = std::sqrt(std::max(sums.bound_squared, 0.));
-    total.add(sums, 1);
-  }
-  return total;
+/// Over a cell with an edge on the surface, where v differs from u_h and the road's term is.
+LineIntegrals integrate_at_surface(Integrand& integrand, const Scene& scene,
+                                   const FeasibleTrace& trace, unsigned int face,
+                                   const EdgePressure& pressure, const QGauss<1>& along_road) {
+  LineIntegrals sums;
+  for (const auto& piece : trace.pieces(face))
+    for (unsigned int p = 0; p < along_road.size(); ++p) {
+      const double share = piece.t_end - piece.t_begin;
+      const double t = piece.t_begin + share * along_road.point(p)[0];
+      const double weight = along_road.weight(p) * share * integrand.angular_length();
+      const auto correction = trace.correction(face, piece, t);
+      const AngularShapes angular = integrand.angular_shapes(t);
+      // b lambda
+      const double moment =
+          scene.outer_radius * pressure(t) + integrand.surface_bubble() * angular.mode;
+      sums.add(integrand.on_line(angular, correction), weight);
+      sums.bound_squared += 2 * weight * moment * correction.gap;
+    }
+  return sums;
 }
 
 } // namespace
@@ -321,27 +213,37 @@ BoundIntegrals integrate_bound(const RingSpace& space, const Scene& scene,
                                const FieldVector& displacement, const FeasibleTrace& trace,
                                const std::vector<EdgePressure>& pressures,
                                const FieldVector& potential, const AngularBubbles& bubbles,
-                               const DualParts& dual) {
-  const DoFHandler<2>& handler = space.dof_handler();
-  const unsigned int n_cells = handler.get_triangulation().n_active_cells();
-  std::vector<double> cell_bounds(n_cells);
-  IntegratedCell middle = handler.begin_active();
-  std::advance(middle, n_cells / 2);
-  const auto integrate = [&](const IntegratedCell& begin, const IntegratedCell& end) {
-    return integrate_cells(space, scene, trace, pressures, dual,
-                           Integrator(space, displacement, potential, bubbles, dual), begin, end,
-                           cell_bounds);
-  };
-  // Which take a fifth of a millisecond or more, beside which a thread's start does not count.
-  constexpr unsigned int few_cells = 1000;
-  Sums of_second_half;
-  TaskBeside second_half(n_cells > few_cells && gains_by_threads(),
-                         [&] { of_second_half = integrate(middle, handler.end()); });
-  Sums total = integrate(handler.begin_active(), middle);
-  second_half.finish();
-  total.add(of_second_half, 1);
+                               DualProblem& dual) {
+  const unsigned int degree = space.dof_handler().get_fe().degree;
+  const QGauss<1> rule = angular_rule(scene, degree), along_road(degree + 6);
+  Integrand integrand(space, displacement, potential, bubbles, dual);
+  std::vector<AngularShapes> shapes;
+  for (const auto& point : rule.get_points())
+    shapes.push_back(integrand.angular_shapes(point[0]));
+
+  std::vector<double> cell_bounds(space.dof_handler().get_triangulation().n_active_cells());
+  Sums total;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    integrand.reinit(cell);
+    LineIntegrals sums;
+    if (const auto face = space.surface_face(cell))
+      sums = integrate_at_surface(integrand, scene, trace, *face, pressures[*face], along_road);
+    else {
+      for (unsigned int p = 0; p < rule.size(); ++p)
+        sums.add(integrand.on_line(shapes[p], p), rule.weight(p) * integrand.angular_length());
+      if (rule.size() == degree + 1)
+        sums.bound_squared += integrand.unseen_square();
+    }
+    const unsigned int number = cell->active_cell_index();
+    cell_bounds[number] =
+        std::sqrt(std::max(sums.bound_squared, 0.) +
+                  (dual.force ? dual.force->cell_error_squared(number) : 0.));
+    total.add(sums, 1);
+  }
   std::vector<long double> sums = {total.bound_squared, total.norm_squared, total.work_of_force,
-                                   total.work_of_rest};
+                                   total.work_of_correction};
   Utilities::MPI::sum(sums, space.communicator(), sums);
   return {double(sums[0]), double(sums[1]), double(sums[2]), double(sums[3]),
           std::move(cell_bounds)};

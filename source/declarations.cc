@@ -124,8 +124,15 @@ std::string Declarations::unknown_key(const Setting& setting) const {
   return message;
 }
 
+void Declarations::refuse(const std::string& section, const std::string& key,
+                          const std::string& advice) {
+  refused[section + "/" + key] = advice;
+}
+
 void Declarations::apply(const std::vector<Setting>& settings) const {
   for (const Setting& setting : settings) {
+    if (const auto gone = refused.find(setting.path()); gone != refused.end())
+      throw BadInput(place(setting) + ": this key is gone; " + gone->second);
     const auto section = texts.find(setting.section);
     if (section == texts.end())
       throw BadInput(unknown_key(setting));
@@ -142,6 +149,8 @@ void Declarations::apply(const std::vector<Setting>& settings) const {
     prm.enter_subsection(setting.section);
     try {
       prm.set(setting.key, setting.value);
+    } catch (const BadInput& reason) {
+      throw BadInput(place(setting) + ": " + reason.what());
     } catch (const std::exception&) {
       throw BadInput(place(setting) + ", value " + in_quotes(setting.value) +
                      " is not admitted. The key: " + entry->second);

@@ -2,7 +2,6 @@
 
 #include "edge_constraints.h"
 #include "lexicographic_dofs.h"
-#include "potential_kinks.h"
 #include "potential_shapes.h"
 #include "scene.h"
 #include "shape_products.h"
@@ -45,8 +44,7 @@ std::vector<std::vector<double>> surface_potential(const RingSpace& space,
 } // namespace
 
 AffineConstraints<double> potential_constraints(const RingSpace& space, const Scene& scene,
-                                                const std::vector<EdgePressure>& pressures,
-                                                const ForceJumps& jumps) {
+                                                const std::vector<EdgePressure>& pressures) {
   double growth = 0;
   const auto surface_values = surface_potential(space, pressures, growth);
   AffineConstraints<double> constraints(space.relevant_dofs());
@@ -71,55 +69,47 @@ AffineConstraints<double> potential_constraints(const RingSpace& space, const Sc
           PotentialShapes(scene, space.dof_handler().get_fe().degree, begin, end).values(r);
     return entry->second;
   };
-  const auto kinks = [&](double r, double z, double begin, double end) {
-    double value = 0, derivative = 0;
-    PotentialKinks(jumps, begin, end, {r}).add_to((z - begin) / (end - begin), &value, &derivative);
-    return value;
-  };
-  tie_edges(space, shape_values, growth, kinks, constraints);
+  tie_edges(space, shape_values, growth, constraints);
   constraints.close();
   return constraints;
 }
 
-DualPotential::DualPotential(const RingSpace& space, SolverKind kind)
+DualPotential::DualPotential(const RingSpace& space, const Scene& scene, SolverKind kind,
+                             RadialShapesOfMesh& shapes, Work& work)
     : space(space), reference(reference_products(space.dof_handler().get_fe().degree)),
-      solver(make_symmetric_solver(kind, space)) {}
+      solver(make_symmetric_solver(kind, space)) {
+  const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
+  solver->set_matrix(
+      scene, potential_constraints(space, scene, no_pressures),
+      [&](double begin, double end) -> const ShapeProducts& {
+        return shapes.on(begin, end).products;
+      },
+      work);
+}
 
 FieldVector DualPotential::solve(RadialShapesOfMesh& shapes,
                                  const AffineConstraints<double>& constraints,
-                                 const FieldVector* force_load, Work& work) {
-  FieldVector lift = space.make_field();
+                                 const ForceIntegral* force, Work& work) {
+  FieldVector lift = space.make_field(), load = space.make_field();
   constraints.distribute(lift);
   lift.update_ghost_values();
-  FieldVector potential = solver->solve(load_of(lift, shapes, constraints), force_load, work);
+  add_load_of(lift, shapes, constraints, load);
+  if (force)
+    add_load_of(*force, shapes, constraints, load);
+  load.compress(VectorOperation::add);
+  FieldVector potential = solver->solve(load, work);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;
 }
 
-bool DualPotential::belongs_to(const Scene& scene) const {
-  return angular_velocity == scene.angular_velocity;
-}
-
-void DualPotential::turn_to(const Scene& scene, RadialShapesOfMesh& shapes,
-                            const AffineConstraints<double>& constraints, Work& work) {
-  angular_velocity.reset(); // until the solver is ready
-  solver->set_matrix(
-      scene, constraints,
-      [&](double begin, double end) -> const ShapeProducts& {
-        return shapes.on(begin, end).products;
-      },
-      work);
-  angular_velocity = scene.angular_velocity;
-}
-
-FieldVector DualPotential::load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
-                                   const AffineConstraints<double>& constraints) const {
+void DualPotential::add_load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
+                                const AffineConstraints<double>& constraints,
+                                FieldVector& load) const {
   const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
   FullMatrix<double> cell_matrix(n);
   LexicographicDofs dofs(space.dof_handler());
   Vector<double> cell_vector(n), cell_lift(n);
-  FieldVector load = space.make_field();
   const auto add_cell = [&](const DoFHandler<2>::active_cell_iterator& cell) {
     if (!cell->is_locally_owned())
       return;
@@ -141,8 +131,36 @@ FieldVector DualPotential::load_of(const FieldVector& lift, RadialShapesOfMesh& 
   else
     for (const auto& cell : space.outer_cells())
       add_cell(cell);
-  load.compress(VectorOperation::add);
-  return load;
+}
+
+void DualPotential::add_load_of(const ForceIntegral& force, RadialShapesOfMesh& shapes,
+                                const AffineConstraints<double>& constraints,
+                                FieldVector& load) const {
+  const unsigned int n = space.dof_handler().get_fe().degree + 1;
+  const auto lagrange = lobatto_lagrange(n - 1);
+  const QGauss<1>& rule = force.rule();
+  FullMatrix<double> slope(rule.size(), n); // d/dz dz = d/dt dt
+  std::vector<double> both(2), on_line(n);
+  for (unsigned int p = 0; p < rule.size(); ++p)
+    for (unsigned int j = 0; j < n; ++j) {
+      lagrange[j].value(rule.point(p)[0], both);
+      slope(p, j) = rule.weight(p) * both[1];
+    }
+  LexicographicDofs dofs(space.dof_handler());
+  Vector<double> cell_vector(n * n);
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    const RadialShapes& radial = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]);
+    cell_vector = 0;
+    for (unsigned int p = 0; p < rule.size(); ++p) {
+      radial.integrate_over_r(force.on_line(cell->active_cell_index(), p), on_line);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          cell_vector(i + n * j) += slope(p, j) * on_line[i];
+    }
+    constraints.distribute_local_to_global(cell_vector, dofs.of(cell), load);
+  }
 }
 
 } // namespace rollwave

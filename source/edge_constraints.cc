@@ -30,9 +30,9 @@ Edge edge_of(const DoFHandler<2>::face_iterator& face, unsigned int degree) {
 
 class EdgeTies {
 public:
-  EdgeTies(unsigned int degree, const RadialShapeValues& radial, const CellAddend& addend,
+  EdgeTies(unsigned int degree, const RadialShapeValues& radial,
            AffineConstraints<double>& constraints)
-      : degree(degree), radial(radial), addend(addend), polynomials(lobatto_lagrange(degree)),
+      : degree(degree), radial(radial), polynomials(lobatto_lagrange(degree)),
         nodes(QGaussLobatto<1>(degree + 1).get_points()), constraints(constraints) {}
 
   /// Those on the face @p f of a cell that has finer neighbours there.
@@ -47,19 +47,14 @@ public:
       const Edge fine = edge_of(face->child(half), degree);
       if (is_radial)
         tie(fine, coarse, 0);
-      else {
-        const Point<2> begin = face->child(half)->vertex(0), end = face->child(half)->vertex(1);
+      else
         for (unsigned int k = 0; k <= degree; ++k) {
           std::vector<double> weights;
           for (const auto& polynomial : polynomials)
             weights.push_back(polynomial.value((half + nodes[k][0]) / 2));
-          const double z = begin[1] + nodes[k][0] * (end[1] - begin[1]);
           if (k != degree * half)
-            tie(fine.dofs[k], coarse.dofs, weights,
-                addend(begin[0], z, face->vertex(0)[1], face->vertex(1)[1]) -
-                    addend(begin[0], z, begin[1], end[1]));
+            tie(fine.dofs[k], coarse.dofs, weights, 0);
         }
-      }
     }
   }
 
@@ -113,7 +108,6 @@ private:
 
   const unsigned int degree;
   const RadialShapeValues& radial;
-  const CellAddend& addend;
   const std::vector<Polynomials::Polynomial<double>> polynomials;
   const std::vector<Point<1>> nodes;
   AffineConstraints<double>& constraints;
@@ -130,10 +124,10 @@ std::vector<Dof> dofs_on_edge(const DoFHandler<2>::face_iterator& face, unsigned
 }
 
 void tie_edges(const RingSpace& space, const RadialShapeValues& shapes, double growth,
-               const CellAddend& addend, AffineConstraints<double>& constraints) {
+               AffineConstraints<double>& constraints) {
   const DoFHandler<2>& handler = space.dof_handler();
   const unsigned int degree = handler.get_fe().degree;
-  EdgeTies ties(degree, shapes, addend, constraints);
+  EdgeTies ties(degree, shapes, constraints);
   if (handler.get_triangulation().has_hanging_nodes())
     for (const auto& cell : handler.active_cell_iterators())
       for (const unsigned int f : cell->face_indices())

@@ -95,30 +95,26 @@ void require_finite(double squared, const std::string& what) {
                            "radii, which must not be too close to each other either");
 }
 
-} // namespace
-
-void make_load(const Scene& scene, const Parameters& parameters, const RingSpace& space,
-               MeshSystem& system, Work& work) {
-  const std::string& force = parameters.cylinder.radial_force;
+/// Makes the load of @p system that of the scene.
+void make_load(const Scene& scene, const RingSpace& space, MeshSystem& system, Work& work) {
   if (!scene.force)
     system.load.reset();
-  else if (!system.load || system.force != force) {
+  else if (!system.load || system.force_text != scene.force_text) {
     const Work::Phase phase(work, "assembly");
-    Load load = assemble_load(space, scene);
-    system.load = std::move(load.vector);
-    system.moments = std::move(load.moments);
-    system.breaks = std::move(load.breaks);
-    system.force = force;
+    system.load = assemble_load(space, scene);
+    system.force_text = scene.force_text;
     ++work.load_assemblies;
   }
   if (system.load)
     require_finite(system.load->norm_sqr(), "the load");
 }
 
+} // namespace
+
 MeshSolution solve_on_mesh(const Scene& scene, const Parameters& parameters, const RingSpace& space,
                            const Vector<double>& start, MeshSystem& system, Work& work) {
   MeshSolution solution;
-  make_load(scene, parameters, space, system, work);
+  make_load(scene, space, system, work);
   auto& solver = system.stiffness.solver;
   const std::string& remark = system.stiffness.remark;
   if (solver)
@@ -162,7 +158,10 @@ void measure(const Scene& scene, const RingSpace& space, const MeshSolution& sol
   result.remarks.clear();
   if (!contact.remark.empty())
     result.remarks.push_back(contact.remark);
-  result.shortfall = contact.shortfall;
+  result.shortfalls.clear();
+  result.is_interrupted = contact.shortfall.has_value();
+  if (contact.shortfall)
+    result.shortfalls.push_back(*contact.shortfall);
   result.cycles.push_back({result.mesh.cells,
                            result.mesh.dofs,
                            static_cast<unsigned int>(result.history.size()),

@@ -1,27 +1,24 @@
 #include "mesh_system.h"
 
+#include "scene.h"
+#include "work.h"
+
 namespace rollwave {
 
-DualParts::DualParts(const RingSpace& space, const Scene& scene, const std::string& force,
-                     const std::vector<double>& moments, const LoadBreaks& breaks,
-                     const dealii::AffineConstraints<double>& constraints)
-    : angular_velocity(scene.angular_velocity), force(force),
-      shapes(scene, space.dof_handler().get_fe().degree, breaks),
-      extents(scene.has_uneven_force() ? RadialExtents(space) : RadialExtents()),
-      interpolant(scene.force ? std::optional<ForceInterpolant>(std::in_place, space, scene,
-                                                                moments, extents)
-                              : std::nullopt),
-      gauss(space.dof_handler().get_fe().degree + (has_uneven_force() ? 2 : 1)) {
-  if (has_uneven_force())
-    jumps = ForceJumps(*interpolant, scene, extents);
-  if (interpolant)
-    columns.emplace(scene, *interpolant, gauss, extents, jumps);
-  if (has_uneven_force())
-    of_force.emplace(space, constraints, shapes, *columns, jumps);
+using namespace dealii;
+
+DualProblem::DualProblem(const RingSpace& space, const Scene& scene, SolverKind kind, Work& work)
+    : angular_velocity(scene.angular_velocity), shapes(scene, space.dof_handler().get_fe().degree),
+      potential(space, scene, kind, shapes, work), bubbles(space, shapes) {
+  turn_to(space, scene);
 }
 
-bool DualParts::belong_to(const Scene& scene, const std::string& of_scene) const {
-  return angular_velocity == scene.angular_velocity && force == of_scene;
+void DualProblem::turn_to(const RingSpace& space, const Scene& scene) {
+  if (!scene.force)
+    force.reset();
+  else if (!force || force_text != scene.force_text)
+    force.emplace(space, scene, shapes);
+  force_text = scene.force_text;
 }
 
 } // namespace rollwave

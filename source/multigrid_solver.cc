@@ -68,14 +68,12 @@ void MultigridSolver::visit_row(
     visit(matrix.ColMap().GID(local_columns[k]), values[k]);
 }
 
-FieldVector MultigridSolver::solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) {
+FieldVector MultigridSolver::solve(const FieldVector& rhs, Work& work) {
   constexpr double accuracy = 1e-11;
-  FieldVector u = space.make_field(), sum = rhs;
-  if (lasting)
-    sum += *lasting;
-  const double size = sum.l2_norm();
+  FieldVector u = space.make_field();
+  const double size = rhs.l2_norm();
   improve(
-      u, sum, [size](const FieldVector&) { return size; }, accuracy, work);
+      u, rhs, [size](const FieldVector&) { return size; }, accuracy, work);
   return u;
 }
 

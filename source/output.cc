@@ -3,7 +3,6 @@
 #include "atomic_file.h"
 #include "errors.h"
 #include "memory.h"
-#include "mesh_plot.h"
 #include "processes.h"
 #include "scene_plot.h"
 #include "solution_vtu.h"
@@ -121,9 +120,6 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
     std::vector<std::pair<std::string, Drawing>> drawings; // made while the files are written
     if (parameters.wants(OutputFile::plot) && process == 0)
       drawings.emplace_back("scene.svg", plot_scene(scene, parameters, solution.result));
-    if (parameters.wants(OutputFile::mesh))
-      if (auto drawing = plot_mesh(scene, solution))
-        drawings.emplace_back("mesh.svg", std::move(*drawing));
     if (parameters.wants(OutputFile::contact))
       add("contact.csv", contact_csv(to_lengths(solution.result, scene.unit)));
     if (parameters.wants(OutputFile::parameters)) {

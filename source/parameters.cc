@@ -1,6 +1,7 @@
 #include "parameters.h"
 
 #include "declarations.h"
+#include "errors.h"
 
 #include <algorithm>
 #include <limits>
@@ -75,13 +76,16 @@ const std::map<std::string, OutputFile> output_files = {{"summary", OutputFile::
                                                         {"contact", OutputFile::contact},
                                                         {"parameters", OutputFile::parameters},
                                                         {"solution", OutputFile::solution},
-                                                        {"plot", OutputFile::plot},
-                                                        {"mesh", OutputFile::mesh}};
+                                                        {"plot", OutputFile::plot}};
 
 std::vector<OutputFile> parse_files(const std::string& text) {
   std::vector<OutputFile> files;
-  for (const std::string& name : split(text, ','))
+  for (const std::string& name : split(text, ',')) {
+    if (name == "mesh")
+      throw BadInput("the file kind \"mesh\" is gone: see the cells in solution.vtu with ParaView's "
+                     "\"Surface With Edges\"");
     files.push_back(output_files.at(name));
+  }
   return files;
 }
 
@@ -229,19 +233,12 @@ void declare(Declarations& keys, Parameters& p) {
       "separated by commas, - where none is known.");
   keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
                         "\"true\" or \"false\": whether to compare every run with the exact "
-                        "solution of its scene or, where none is known, with an adaptive solution "
-                        "of quadratic elements that is much finer.");
-  keys.add_choice<bool>(
-      "Continue meshes", p.study.continue_meshes, {{"false", false}, {"true", true}},
-      "\"true\" or \"false\": whether an adaptive run that differs from the one before in "
-      "road distance, speed or force only begins with its last mesh, coarsened where "
-      "that has become too fine, rather than with the coarsest.");
+                        "solution of its scene; where none is known, the certified error is all "
+                        "there is.");
   keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
                  "Under MPI with a number greater than 0, as many processes make a run and several "
                  "runs are made at the same time; one process hands them out. 0: all processes "
                  "make each run together.");
-  keys.add_count("Reference unknowns", p.study.reference_unknowns, 1, most,
-                 "The most unknowns of that finer solution.");
   keys.leave();
 
   keys.enter("Output");
@@ -250,9 +247,13 @@ void declare(Declarations& keys, Parameters& p) {
       "Files", "summary, contact, parameters, solution, plot",
       [&p](const std::string& text) { p.output.files = parse_files(text); },
       "The files to write: any of summary (summary.json), contact (contact.csv), parameters "
-      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study), mesh "
-      "(mesh.svg, the edges of the cells).");
+      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study).");
   keys.leave();
+
+  keys.refuse("Study", "Continue meshes",
+              "adaptive runs begin anew; leave the key out");
+  keys.refuse("Study", "Reference unknowns",
+              "where no exact solution is known, the certified error is given; leave the key out");
 }
 
 } // namespace

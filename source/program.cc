@@ -41,7 +41,7 @@ void verify(const Scene& scene, const Parameters& parameters, Solution& solution
   if (const auto exact = find_exact_solution(scene, parameters)) {
     solution.result.errors =
         measure_true_errors(*solution.space, solution.displacement, solution.result,
-                            solution.certificate, exact_reference(*exact));
+                            solution.certificate, *exact);
     report_verification(out, scene, solution.result, *exact);
   } else
     out << "\nNo exact solution is known for this scene: its force is not constant, its "
@@ -59,8 +59,8 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(out, solution.result.work, written);
   processes.wait_for_first();
-  if (!solution.result.shortfall.empty())
-    throw NotSolved(solution.result.shortfall);
+  if (!solution.result.shortfalls.empty())
+    throw NotSolved(shortfall_text(solution.result));
 }
 
 } // namespace

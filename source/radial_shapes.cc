@@ -23,8 +23,7 @@ unsigned int n_points(unsigned int degree, double ratio) {
 
 } // namespace
 
-void RadialShapes::integrate_over_r(const std::vector<double>& w,
-                                    std::vector<double>& integrals) const {
+void RadialShapes::integrate_over_r(const double* w, std::vector<double>& integrals) const {
   std::fill(integrals.begin(), integrals.end(), 0.);
   for (unsigned int q = 0; q < r.size(); ++q) {
     const double factor = w[q] * weight_over_r[q];
@@ -34,9 +33,8 @@ void RadialShapes::integrate_over_r(const std::vector<double>& w,
   }
 }
 
-RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree,
-                                       const LoadBreaks& breaks)
-    : scene(scene), breaks(breaks), lagrange(lobatto_lagrange(degree)) {}
+RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
+    : scene(scene), lagrange(lobatto_lagrange(degree)) {}
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
   return known.at(begin, end, [&] { return make(begin, end); });
@@ -46,19 +44,8 @@ QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
   return QGauss<1>(n_points(lagrange.size() - 1, end / begin));
 }
 
-RadialRule RadialShapesOfMesh::rule(double begin, double end, const Quadrature<1>& points) const {
-  const std::vector<double> ends = breaks.radial_ends(begin, end);
-  RadialRule rule;
-  for (unsigned int part = 0; part + 1 < ends.size(); ++part) {
-    const RadialRule on_part = graded_rule(ends[part], ends[part + 1], points);
-    rule.r.insert(rule.r.end(), on_part.r.begin(), on_part.r.end());
-    rule.weight.insert(rule.weight.end(), on_part.weight.begin(), on_part.weight.end());
-  }
-  return rule;
-}
-
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
-  const RadialRule rule = this->rule(begin, end, gauss(begin, end));
+  const RadialRule rule = graded_rule(begin, end, gauss(begin, end));
   RadialShapes shapes;
   const PotentialShapes potential_shapes(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;

@@ -16,7 +16,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <vector>
 
 namespace rollwave {
@@ -53,16 +52,11 @@ unsigned int count_flagged(const Triangulation<2>& triangulation) {
 void exchange_flags(Triangulation<2>& triangulation) {
   GridTools::exchange_cell_data_to_ghosts<int, Triangulation<2>>(
       triangulation,
-      [](const Cell& cell) -> std::optional<int> {
-        return (cell->refine_flag_set() ? 1 : 0) + (cell->coarsen_flag_set() ? 2 : 0);
-      },
-      [](const Cell& cell, int flags) {
+      [](const Cell& cell) -> std::optional<int> { return cell->refine_flag_set(); },
+      [](const Cell& cell, int is_flagged) {
         cell->clear_refine_flag();
-        cell->clear_coarsen_flag();
-        if (flags & 1)
+        if (is_flagged)
           cell->set_refine_flag();
-        if (flags & 2)
-          cell->set_coarsen_flag();
       });
 }
 
@@ -71,7 +65,7 @@ void exchange_flags(Triangulation<2>& triangulation) {
 /// @returns whether there were any.
 bool balance_seam(Triangulation<2>& triangulation) {
   const auto level_to_come = [](const Cell& cell) {
-    return cell->level() + (cell->refine_flag_set() ? 1 : 0) - (cell->coarsen_flag_set() ? 1 : 0);
+    return cell->level() + (cell->refine_flag_set() ? 1 : 0);
   };
   const auto visit_vertices = [&](const auto& visit) {
     for (const auto& cell : triangulation.active_cell_iterators())
@@ -88,10 +82,7 @@ bool balance_seam(Triangulation<2>& triangulation) {
     if (finest[r] <= level_to_come(cell) + 1)
       return;
     is_changed = true;
-    if (cell->coarsen_flag_set())
-      cell->clear_coarsen_flag();
-    else
-      cell->set_refine_flag();
+    cell->set_refine_flag();
   });
   return is_changed;
 }
@@ -184,10 +175,8 @@ void flag(Triangulation<2>& triangulation, const Scene& scene, const Vector<doub
 }
 
 void clear_flags(Triangulation<2>& triangulation) {
-  for (const auto& cell : triangulation.active_cell_iterators()) {
+  for (const auto& cell : triangulation.active_cell_iterators())
     cell->clear_refine_flag();
-    cell->clear_coarsen_flag();
-  }
 }
 
 /// The squares of the own cells.
@@ -253,19 +242,12 @@ double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
   }
 }
 
-/// Cuts and coarsens flagged cells; each part inherits its cell's square times @p left_to_part, a
-/// cell that is whole again that of a part over the same number.
+/// Cuts flagged cells; each part inherits its cell's square times @p left_to_part.
 void execute(Triangulation<2>& triangulation, Vector<double>& squares, double left_to_part) {
   triangulation.clear_user_data();
-  for (const auto& cell : triangulation.active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    cell->set_user_index(cell->active_cell_index() + 1);
-    if (cell->coarsen_flag_set()) {
-      cell->parent()->set_user_index(cell->active_cell_index() + 1);
-      squares(cell->active_cell_index()) /= left_to_part;
-    }
-  }
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      cell->set_user_index(cell->active_cell_index() + 1);
   triangulation.execute_coarsening_and_refinement();
   Vector<double> inherited(triangulation.n_active_cells());
   for (const auto& cell : triangulation.active_cell_iterators())
@@ -276,35 +258,10 @@ void execute(Triangulation<2>& triangulation, Vector<double>& squares, double le
   squares = inherited;
 }
 
-/// Makes cells whole again, of which the parts have the fraction @p left_to_part of the squares
-/// each, that then have less than @p most. Level by level: whether a cell may then be whole depends
-/// on what its neighbours are, and not on their flags, which other processes do not know in full.
-/// None of the parts has become whole itself: the others may be on another process.
-void coarsen(Triangulation<2>& triangulation, Vector<double>& squares, double most,
-             double left_to_part) {
-  std::set<CellId> parts;
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && cell->level() > 0 &&
-        squares(cell->active_cell_index()) < left_to_part * most)
-      parts.insert(cell->id());
-  for (int level = triangulation.n_global_levels() - 1; level > 0; --level) {
-    int n_flagged = 0;
-    for (const auto& cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->level() == level && parts.count(cell->id()) > 0) {
-        cell->set_coarsen_flag();
-        ++n_flagged;
-      }
-    if (Utilities::MPI::max(n_flagged, triangulation.get_communicator()) == 0)
-      continue;
-    prepare(triangulation);
-    execute(triangulation, squares, left_to_part);
-  }
-}
-
 /// Refines as refine_mesh(), without giving cells to other processes.
 bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
                      const std::vector<double>& indicators, Marking marking, double fraction,
-                     unsigned int degree, double most_cells, bool coarsens) {
+                     unsigned int degree, double most_cells) {
   const MPI_Comm communicator = triangulation.get_communicator();
   Vector<double> squares(indicators.size());
   const double largest =
@@ -327,24 +284,18 @@ bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
     last_marked = 0;
   const double left_to_part = std::pow(4., -(degree + 1.));
   const double most_now = std::min(most_cells, 4. * triangulation.n_global_active_cells());
-  bool is_changed = false;
   clear_flags(triangulation);
-  if (coarsens) {
-    const auto n_before = triangulation.n_global_active_cells();
-    coarsen(triangulation, squares, last_marked / 2, left_to_part);
-    is_changed = triangulation.n_global_active_cells() != n_before;
-  }
   flag(triangulation, scene, squares, last_marked);
   prepare(triangulation);
   if (n_cells_to_come(triangulation) > most_cells) {
     if (marking == Marking::all) {
       clear_flags(triangulation);
-      return is_changed;
+      return false;
     }
     last_marked = flag_as_many_as_fit(triangulation, scene, squares, last_marked, most_cells);
   }
   if (count_flagged(triangulation) == 0)
-    return is_changed;
+    return false;
   execute(triangulation, squares, left_to_part);
   while (marking != Marking::all) {
     for (const auto& cell : triangulation.active_cell_iterators())
@@ -370,9 +321,9 @@ bool has_room_to_refine(const Triangulation<2>& triangulation, Marking marking, 
 
 bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,
-                 unsigned int degree, double most_cells, bool coarsens) {
+                 unsigned int degree, double most_cells) {
   const bool is_changed = refine_in_place(triangulation, scene, indicators, marking, fraction,
-                                          degree, most_cells, coarsens);
+                                          degree, most_cells);
   if (auto* const distributed =
           dynamic_cast<parallel::distributed::Triangulation<2>*>(&triangulation);
       distributed && is_changed)

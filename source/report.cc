@@ -117,8 +117,8 @@ void report_result(std::ostream& out, const Result& result) {
       out << "           G    from " << std::setprecision(9) << result.load_bounds->lower << " to "
           << result.load_bounds->upper << '\n';
   }
-  if (!result.shortfall.empty())
-    out << "Shortfall  " << result.shortfall << '\n';
+  if (!result.shortfalls.empty())
+    out << "Shortfall  " << shortfall_text(result) << '\n';
   out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
       << ", penetration " << result.residuals.penetration << ", negative pressure "
       << result.residuals.negative_pressure << ", complementarity "

@@ -2,7 +2,6 @@
 
 #include "cell_lines.h"
 #include "constant_size.h"
-#include "interpolation.h"
 #include "lexicographic_dofs.h"
 #include "parameters.h"
 #include "result.h"
@@ -95,7 +94,12 @@ class ForceMoment {
 public:
   /// @param rule at whose points it is asked for, in each direction
   ForceMoment(unsigned int degree, const Quadrature<1>& rule)
-      : gauss(degree), to_points(interpolation(gauss, rule)), at_gauss(degree) {}
+      : gauss(degree), to_points(rule.size(), degree), at_gauss(degree) {
+    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(gauss.get_points());
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      for (unsigned int i = 0; i < degree; ++i)
+        to_points(q, i) = lagrange[i].value(rule.point(q)[0]);
+  }
 
   void reinit(const Scene& scene, const Rectangle& box) {
     for (unsigned int j = 0; j < gauss.size(); ++j) {

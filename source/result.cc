@@ -22,6 +22,13 @@ double pressure_at(const std::vector<ContactRow>& rows, double z) {
   return (1 - t) * before.pressure + t * next->pressure;
 }
 
+std::string shortfall_text(const Result& result) {
+  std::string text;
+  for (const std::string& shortfall : result.shortfalls)
+    text += (text.empty() ? "" : "; ") + shortfall;
+  return text;
+}
+
 Result to_lengths(Result result, double unit) {
   const double square = unit * unit;
   for (double* const length : {&result.mesh.h_min, &result.mesh.h_max, &result.patch.force,
@@ -31,6 +38,7 @@ Result to_lengths(Result result, double unit) {
   result.energy.norm_squared *= square;
   if (auto& certified = result.certified) {
     certified->energy_norm *= unit;
+    certified->force_data *= unit;
     certified->lower_bound *= square;
     certified->upper_bound *= square;
     certified->norm_squared *= square;

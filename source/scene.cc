@@ -219,6 +219,7 @@ Scene make_scene(const Parameters& parameters) {
   scene.angular_velocity = parameters.cylinder.angular_velocity * unit;
   scene.force_refusal =
       refusal(parameters.settings, "Cylinder", "Radial force", "it is not finite");
+  scene.force_text = parameters.cylinder.radial_force;
   const std::optional<double> constant = constant_force(parameters);
   if (!constant)
     scene.force = [unit, f = parse_force(parameters)](double r, double z) {

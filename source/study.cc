@@ -63,19 +63,6 @@ std::string claim_directory(const Parameters& parameters, const std::filesystem:
   return {};
 }
 
-/// The @p finished ones of all runs, but for the last ones where the next run continues their mesh:
-/// it is made anew with them.
-std::vector<StudyRun> runs_to_keep(std::vector<StudyRun> finished,
-                                   const std::vector<RunPlan>& plans) {
-  if (finished.size() >= plans.size())
-    return finished;
-  const Parameters& next = plans[finished.size()].parameters;
-  if (continues_mesh(next))
-    while (!finished.empty() && mesh_key(plans[finished.size() - 1].parameters) == mesh_key(next))
-      finished.pop_back();
-  return finished;
-}
-
 /// Writes study.csv, and parameters.prm where the directory has been removed.
 void write_runs(const Parameters& parameters, const std::filesystem::path& directory,
                 const std::vector<StudyRun>& runs) {
@@ -161,57 +148,39 @@ bool make_one_by_one(const std::vector<RunPlan>& plans, MPI_Comm communicator, R
   return true;
 }
 
-/// Groups of processes make runs at the same time, those together that continue a mesh. False when
-/// the user has interrupted it.
+/// Groups of processes make runs at the same time. False when the user has interrupted it.
 bool make_in_groups(const std::vector<RunPlan>& plans, unsigned int group_size,
                     MPI_Comm communicator, Rows& rows) {
-  struct Task {
-    std::size_t begin, end; ///< of its runs
-  };
-  std::vector<Task> tasks;
-  for (std::size_t i = rows.size(); i < plans.size(); ++i)
-    if (!tasks.empty() && continues_mesh(plans[i].parameters) &&
-        mesh_key(plans[i - 1].parameters) == mesh_key(plans[i].parameters))
-      tasks.back().end = i + 1;
-    else
-      tasks.push_back({i, i + 1});
-
+  const std::size_t first = rows.size();
   // Rows are in the order of the study, whichever run is ready first.
   std::map<std::size_t, StudyRun> made;
   bool is_interrupted = false;
-  const Foreman foreman = {[&](unsigned int task) {
-                             for (std::size_t i = tasks[task].begin; i < tasks[task].end; ++i)
-                               rows.announce(i);
-                           },
-                           [&](unsigned int task, const std::string& csv) {
-                             auto runs = read_study_csv(csv);
-                             is_interrupted = is_interrupted ||
-                                              rollwave::is_interrupted(MPI_COMM_SELF) ||
-                                              runs.size() < tasks[task].end - tasks[task].begin;
-                             for (std::size_t k = 0; k < runs.size(); ++k)
-                               made[tasks[task].begin + k] = std::move(runs[k]);
-                             for (auto next = made.find(rows.size()); next != made.end();
-                                  next = made.find(rows.size())) {
-                               rows.add(std::move(next->second));
-                               made.erase(next);
-                             }
-                             return !is_interrupted;
-                           }};
+  const Foreman foreman = {
+      [&](unsigned int task) { rows.announce(first + task); },
+      [&](unsigned int task, const std::string& csv) {
+        auto runs = read_study_csv(csv);
+        is_interrupted =
+            is_interrupted || rollwave::is_interrupted(MPI_COMM_SELF) || runs.empty();
+        if (!runs.empty())
+          made[first + task] = std::move(runs.front());
+        for (auto next = made.find(rows.size()); next != made.end();
+             next = made.find(rows.size())) {
+          rows.add(std::move(next->second));
+          made.erase(next);
+        }
+        return !is_interrupted;
+      }};
   std::optional<StudyBench> bench;
-  farm_out(communicator, group_size, tasks.size(), foreman, [&](unsigned int task, MPI_Comm group) {
-    if (!bench)
-      bench.emplace(plans, group);
-    if (continues_mesh(plans[tasks[task].begin].parameters))
-      bench->forget_mesh(); // that of another task
-    std::vector<StudyRun> runs;
-    try {
-      for (std::size_t i = tasks[task].begin; i < tasks[task].end; ++i)
-        runs.push_back(bench->make(plans[i]));
-    } catch (const Interrupted&) {
-      // a result that is too short tells
-    }
-    return study_csv(runs);
-  });
+  farm_out(communicator, group_size, plans.size() - first, foreman,
+           [&](unsigned int task, MPI_Comm group) {
+             if (!bench)
+               bench.emplace(plans, group);
+             try {
+               return study_csv({bench->make(plans[first + task])});
+             } catch (const Interrupted&) {
+               return std::string(); // which tells
+             }
+           });
   return !is_interrupted;
 }
 
@@ -241,7 +210,8 @@ Study run_study(const Parameters& parameters, const std::filesystem::path& direc
   const std::string earlier = share_text(
       communicator, is_first ? claim_directory(parameters, directory, progress) : std::string());
   Rows rows(parameters, plans, directory, progress, is_first);
-  for (StudyRun& run : runs_to_keep(read_study_csv(earlier), plans)) {
+  std::vector<StudyRun> earlier_runs = read_study_csv(earlier);
+  for (StudyRun& run : earlier_runs) {
     rows.announce("  (done before)");
     rows.adopt(std::move(run));
   }

@@ -38,8 +38,4 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   return plans;
 }
 
-bool continues_mesh(const Parameters& parameters) {
-  return most_cycles(parameters) > 0 && parameters.study.continue_meshes;
-}
-
 } // namespace rollwave

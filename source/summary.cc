@@ -12,8 +12,8 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   using Json = nlohmann::ordered_json;
   Json json;
   json["program"] = version_text();
-  if (!result.shortfall.empty())
-    json["shortfall"] = result.shortfall;
+  if (!result.shortfalls.empty())
+    json["shortfall"] = shortfall_text(result);
   json["scene"] = {{"inner_radius", parameters.cylinder.inner_radius},
                    {"outer_radius", parameters.cylinder.outer_radius},
                    {"angular_velocity", parameters.cylinder.angular_velocity},
@@ -46,6 +46,7 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   if (result.certified) {
     json["energy"]["lower_bound"] = result.certified->lower_bound;
     json["energy"]["upper_bound"] = result.certified->upper_bound;
+    json["error"]["force_data"] = result.certified->force_data;
     json["error"]["certified_energy_norm"] = result.certified->energy_norm;
     json["error"]["certified_relative"] =
         number_or_null(std::isfinite(result.certified->relative), result.certified->relative);

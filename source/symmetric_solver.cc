@@ -6,8 +6,6 @@
 #include "stiffness_triplets.h"
 #include "tensor_solver.h"
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -45,23 +43,17 @@ public:
     if (is_first)
       require_memory(sizeof(double) * cholesky->n_factor_entries(),
                      "the factor of the dual problem");
-    reduced_lasting.reset();
     cholesky->factorise();
     ++work.factorisations;
   }
 
-  FieldVector solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) override {
-    std::vector<double> unknowns = reduce(rhs, work);
-    if (lasting) {
-      if (!reduced_lasting ||
-          !std::equal(lasting->begin(), lasting->end(), this->lasting.begin())) {
-        this->lasting = *lasting;
-        reduced_lasting = reduce(*lasting, work);
-      }
-      for (unsigned int i = 0; i < unknowns.size(); ++i)
-        unknowns[i] += (*reduced_lasting)[i];
-    }
-    unknowns = cholesky->backward(std::move(unknowns));
+  FieldVector solve(const FieldVector& rhs, Work& work) override {
+    std::vector<double> unknowns(cholesky->size());
+    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
+      if (unknown_of_dof[dof] >= 0)
+        unknowns[unknown_of_dof[dof]] = rhs(dof);
+    unknowns = cholesky->backward(cholesky->forward(std::move(unknowns)));
+    ++work.forward_substitutions;
     ++work.back_substitutions;
     FieldVector solution = space.make_field();
     for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
@@ -71,20 +63,9 @@ public:
   }
 
 private:
-  std::vector<double> reduce(const FieldVector& rhs, Work& work) {
-    std::vector<double> unknowns(cholesky->size());
-    for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-      if (unknown_of_dof[dof] >= 0)
-        unknowns[unknown_of_dof[dof]] = rhs(dof);
-    ++work.forward_substitutions;
-    return cholesky->forward(std::move(unknowns));
-  }
-
   const RingSpace& space;
   std::vector<int> unknown_of_dof; ///< -1 where a constraint holds
   std::unique_ptr<SparseCholesky> cholesky;
-  FieldVector lasting;
-  std::optional<std::vector<double>> reduced_lasting; ///< of it, by the factor
 };
 
 } // namespace

@@ -105,13 +105,13 @@ void TensorSolver::set_matrix(const Scene& /*scene*/, const AffineConstraints<do
   }
 }
 
-FieldVector TensorSolver::solve(const FieldVector& rhs, const FieldVector* lasting, Work& work) {
+FieldVector TensorSolver::solve(const FieldVector& rhs, Work& work) {
   const unsigned int n_modes = eigenvalues.size();
   LAPACKFullMatrix<double> load(n_angles, n_modes), of_modes(n_angles, n_modes);
   for (unsigned int i = 0; i < n_modes; ++i)
     for (unsigned int j = 0; j < n_angles; ++j) {
       const auto dof = dofs[i * n_angles + j];
-      load(j, i) = rhs(dof) + (lasting ? (*lasting)(dof) : 0);
+      load(j, i) = rhs(dof);
     }
   load.mmult(of_modes, modes);
   std::vector<double> along(n_angles);

@@ -138,7 +138,7 @@ ContactSolution uzawa(StiffnessSolver& solver, const ContactProblem& problem,
     const bool is_converged = measured <= settings.tolerance * size;
     if (!is_converged && is_interrupted(problem.communicator))
       solution.shortfall = interruption_text(settings, solution.history);
-    if (is_converged || !solution.shortfall.empty()) {
+    if (is_converged || solution.shortfall) {
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);
       return solution;
