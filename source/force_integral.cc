@@ -20,7 +20,7 @@ namespace rollwave {
 using namespace dealii;
 
 QGauss<1> angular_rule(const Scene& scene, unsigned int degree) {
-  return QGauss<1>(degree + (scene.has_uneven_force() ? 2 : 1));
+  return QGauss<1>(degree + (scene.has_uneven_force() ? 3 : 1));
 }
 
 namespace {

@@ -333,6 +333,18 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
       }
     const double h_r = box.height(), h_z = box.length();
     double& square = squares[cell->active_cell_index()];
+    const double resistance = lengths[cell->active_cell_index()].both() / h_r;
+    for (unsigned int mode = 2; mode < degree; ++mode) {
+      const Polynomials::Legendre legendre(mode);
+      double coefficient = 0;
+      for (unsigned int q = 0; q < n; ++q) {
+        double lambda = 0;
+        for (unsigned int k = 0; k < n; ++k)
+          lambda += inside.value[q][k] * pressure[k];
+        coefficient += gauss.weight(q) * legendre.value(points[q][0]) * lambda;
+      }
+      square += exact_parts_weight * resistance * h_z * std::pow(b * coefficient, 2);
+    }
     for (unsigned int q = 0; q < n; ++q) {
       double lambda = 0, displacement = 0, slope = 0;
       for (unsigned int k = 0; k < n; ++k) {
@@ -342,7 +354,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
       }
       const double weight = gauss.weight(q) * h_z;
       const double imbalance = b * (u.sum(ends.first[1], inside.value[q]) / h_r + lambda);
-      square += lengths[cell->active_cell_index()].both() / h_r * weight * imbalance * imbalance;
+      square += resistance * weight * imbalance * imbalance;
       const double z = face.begin + (face.end - face.begin) * points[q][0];
       if (n_contact == 0 || n_active == n || z < scene.zone_begin || z > scene.zone_end)
         continue;
