@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_COLUMN_FORM_H
 #define ROLLWAVE_COLUMN_FORM_H
 
-#include "banded_matrix.h"
+#include "banded_cholesky.h"
 #include "ring_space.h"
 #include "shape_products.h"
 

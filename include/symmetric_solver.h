@@ -28,7 +28,7 @@ public:
   virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
 };
 
-/// Of the @p kind direct, which is a TensorSolver where that suits, or iterative.
+/// Of the @p kind direct or iterative.
 std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space);
 
 } // namespace rollwave

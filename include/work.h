@@ -16,10 +16,9 @@ public:
   unsigned int stiffness_assemblies = 0;
   unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
   unsigned int factorisations = 0;       ///< of sparse matrices
-  unsigned int diagonalisations = 0;     ///< of matrices that are tensor products
   unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
   unsigned int forward_substitutions = 0;
-  unsigned int back_substitutions = 0; ///< solutions by a diagonalised matrix among them
+  unsigned int back_substitutions = 0;
   unsigned int preconditioners = 0;    ///< set up for an iterative solver of linear systems
   unsigned int linear_iterations = 0;  ///< of that solver
   unsigned long bytes_written = 0;

@@ -91,7 +91,7 @@ FieldVector ColumnForm::solve(const FieldVector& load) const {
 FieldVector ColumnForm::follow(std::vector<double> change,
                                const std::vector<unsigned int>& rows) const {
   if (is_whole)
-    return add_up(inverse.solve_transposed(std::move(change)));
+    return add_up(inverse.follow(std::move(change)));
   FieldVector whole_change = add_up(change), load = zero;
   vmult(load, whole_change);
   load *= -1;

@@ -4,7 +4,6 @@
 #include "multigrid_solver.h"
 #include "sparse_cholesky.h"
 #include "stiffness_triplets.h"
-#include "tensor_solver.h"
 
 #include <utility>
 #include <vector>
@@ -73,8 +72,6 @@ private:
 std::unique_ptr<SymmetricSolver> make_symmetric_solver(SolverKind kind, const RingSpace& space) {
   if (kind == SolverKind::iterative)
     return std::make_unique<MultigridSolver>(space);
-  if (TensorSolver::suits(space))
-    return std::make_unique<TensorSolver>(space);
   return std::make_unique<CholeskySolver>(space);
 }
 

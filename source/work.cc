@@ -22,7 +22,6 @@ void Work::add_counts(const Work& other) {
   stiffness_assemblies += other.stiffness_assemblies;
   orderings += other.orderings;
   factorisations += other.factorisations;
-  diagonalisations += other.diagonalisations;
   dense_factorisations += other.dense_factorisations;
   forward_substitutions += other.forward_substitutions;
   back_substitutions += other.back_substitutions;
