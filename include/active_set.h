@@ -13,18 +13,9 @@ namespace rollwave {
  * With exact solves N_i + kappa (u_i - phi_i) > 0 says just that for every kappa > 0, so none is
  * chosen.
  *
- * These signs alone move an end of contact by a fraction of its error, and by a single node where
- * cells are much longer in r than in z. So the ends leap (move_ends()): how far the pressure or the
- * gap has the wrong sign tells where the end belongs. Where contact is torn into stretches, signs
- * change too many nodes at a time, since what one takes over relieves the next. There the set that
- * the signs suggest is relaxed instead before it is pinned, where that is cheap
- * (StiffnessSolver::relax()). Where three steps have not sufficed, the nodes that have not leapt
- * are.
- *
- * A set seen before would begin a cycle. From then on nodes change by sign alone; after a second
- * repetition only the first node of the wrong sign changes in each step, the least-index rule,
- * which ends for every symmetric positive definite matrix (K. G. Murty, Opsearch 11 (1974); J. J.
- * Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
+ * A set seen before would begin a cycle. From then on only the first node of the wrong sign changes
+ * in each step, the least-index rule, which ends for every symmetric positive definite matrix (K. G.
+ * Murty, Opsearch 11 (1974); J. J. Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
  *
  * @param start pressures whose positive entries are the active nodes to begin with; without entries
  *        none is

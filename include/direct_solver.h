@@ -28,8 +28,6 @@ public:
   void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
-  bool relax(const dealii::Vector<double>& limit, unsigned int sweeps,
-             ContactState& state) const override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 

@@ -29,9 +29,6 @@ public:
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
-  bool relax(const dealii::Vector<double>&, unsigned int, ContactState&) const override {
-    return false;
-  }
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 

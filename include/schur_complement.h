@@ -32,14 +32,6 @@ public:
   unsigned int solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,
                      dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
 
-  /// Sweeps to and fro of projected overrelaxation (C. W. Cryer, SIAM J. Control 9 (1971) 385-392)
-  /// towards u <= limit, N >= 0, N_i (limit_i - u_i) = 0: each node in turn takes
-  /// u_i <- min(limit_i, u_i + 1.6 (g - S u)_i / S_ii). One costs 4 m^2 multiplications. They leave
-  /// N = g - S u.
-  void relax(const dealii::Vector<double>& load, const dealii::Vector<double>& limit,
-             unsigned int sweeps, dealii::Vector<double>& displacement,
-             dealii::Vector<double>& force) const;
-
   /// S^-1 force
   dealii::Vector<double> solve(dealii::Vector<double> force) const;
 

@@ -52,15 +52,6 @@ public:
   /// @p accuracy is as for solve().
   virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
 
-  /// Brings a state that solve() has left closer, the more @p sweeps the closer, to
-  ///
-  ///     u_i <= limit_i,   N_i >= 0,   N_i (limit_i - u_i) = 0,   some limits infinite,
-  ///
-  /// where that costs a kind less than solve(); N_i = 0 need not hold afterwards where u_i is below
-  /// its limit. @return whether this kind does; otherwise @p state is left as it is
-  virtual bool relax(const dealii::Vector<double>& limit, unsigned int sweeps,
-                     ContactState& state) const = 0;
-
   /// The field u of a state that solve() has left, constraints included.
   virtual FieldVector displacement_field(const ContactState& state) = 0;
 

@@ -1,6 +1,5 @@
 #include "active_set.h"
 
-#include "contact_ends.h"
 #include "errors.h"
 
 #include <algorithm>
@@ -57,47 +56,6 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
   return step;
 }
 
-/// Whether contact has more than two ends within the zone.
-bool is_torn(const std::vector<bool>& active) {
-  unsigned int ends = 0;
-  for (unsigned int i = 0; i + 1 < active.size(); ++i)
-    ends += active[i] != active[i + 1];
-  return ends > 2;
-}
-
-/// Sweeps that bring a set nearer to the solution. Where contact is torn, one that has not been
-/// found after more steps needs more of them. Where the factor of the contact nodes does not fit
-/// into caches a sweep costs as much as a step.
-unsigned int count_sweeps(unsigned int n_nodes, bool tears, unsigned int steps) {
-  constexpr unsigned int many_nodes = 1000, few_sweeps = 2, many_sweeps = 10;
-  if (n_nodes >= many_nodes)
-    return few_sweeps;
-  return tears ? many_sweeps * steps : many_sweeps;
-}
-
-/// The set that is nearer to the solution than @p next, which nodes of the wrong sign have left or
-/// entered: the ends have leapt. Where contact is torn all nodes are relaxed instead if the solver
-/// can, and where it has not been found by leaps in three steps, those that have not leapt.
-std::vector<bool> predict(const StiffnessSolver& solver, const ContactProblem& problem,
-                          const ContactSolution& solution, const std::vector<bool>& next) {
-  const bool tears = is_torn(solution.active) || is_torn(next);
-  const unsigned int steps = solution.history.size();
-  std::vector<bool> predicted = next;
-  move_ends(problem, solution, predicted);
-  if (!tears && steps < 3)
-    return predicted;
-  Vector<double> limit = problem.road;
-  if (!tears)
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      if (next[i] && !predicted[i])
-        limit(i) = std::numeric_limits<double>::infinity();
-  ContactState relaxed = solution.state;
-  if (solver.relax(limit, count_sweeps(problem.size(), tears, steps), relaxed))
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      predicted[i] = relaxed.displacement(i) == limit(i) && relaxed.force(i) >= 0;
-  return predicted == solution.active ? next : predicted;
-}
-
 /// Undoes all changes from @p active to @p next but the first.
 void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next) {
   const auto first = std::mismatch(active.begin(), active.end(), next.begin()).first;
@@ -115,7 +73,7 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
 
-  enum class Change { predicted, by_sign, one_by_one } change = Change::predicted;
+  bool changes_one_by_one = false;
   std::set<std::vector<bool>> visited;
   double accuracy = loose_accuracy;
   for (;;) {
@@ -142,7 +100,7 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
                       " steps: " + std::to_string(step.changed) +
                       " nodes still change; raise Contact/Most steps");
 
-    if (change != Change::one_by_one && !visited.insert(solution.active).second) {
+    if (!changes_one_by_one && !visited.insert(solution.active).second) {
       if (is_loose) {
         // The signs of a loose solve have led here; those of an accurate one may lead on.
         accuracy = final_accuracy;
@@ -150,17 +108,10 @@ ContactSolution active_set(StiffnessSolver& solver, const ContactProblem& proble
         solution.history.pop_back();
         continue;
       }
-      change = change == Change::predicted ? Change::by_sign : Change::one_by_one;
-      solution.remark =
-          change == Change::by_sign
-              ? "the active set repeated itself; from then on it changed by sign alone"
-              : "the active set repeated itself; from then on one node changed at a "
-                "time";
-      visited = {solution.active};
+      changes_one_by_one = true;
+      solution.remark = "the active set repeated itself; from then on one node changed at a time";
     }
-    if (change == Change::predicted)
-      next = predict(solver, problem, solution, next);
-    else if (change == Change::one_by_one)
+    if (changes_one_by_one)
       keep_first_change(solution.active, next);
     step.changed = count_changes(solution.active, next);
     step.residual = static_cast<double>(step.changed) / problem.size();

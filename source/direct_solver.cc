@@ -104,14 +104,6 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
   return 0;
 }
 
-bool DirectSolver::relax(const Vector<double>& limit, unsigned int sweeps,
-                         ContactState& state) const {
-  Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
-  schur->relax(contact_load, to_places(limit), sweeps, displacement, force);
-  state = {from_places(displacement), from_places(force)};
-  return true;
-}
-
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(*work, "back-substitution");
   std::vector<double> rhs = reduced_load;

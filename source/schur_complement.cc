@@ -94,36 +94,6 @@ unsigned int SchurComplement::solve(const std::vector<bool>& pinned, const Vecto
   return free.size();
 }
 
-void SchurComplement::relax(const Vector<double>& load, const Vector<double>& limit,
-                            unsigned int sweeps, Vector<double>& displacement,
-                            Vector<double>& force) const {
-  constexpr double overrelaxation = 1.6;
-  const unsigned int m = size();
-  Vector<double> diagonal(m);
-  for (unsigned int i = 0; i < m; ++i) {
-    const double* const entries = &factor(i, 0);
-    diagonal(i) = std::inner_product(entries, entries + i + 1, entries, 0.);
-    displacement(i) = std::min(displacement(i), limit(i));
-  }
-  Vector<double> y = transposed_multiply(displacement);
-  const auto visit = [&](unsigned int i) {
-    const double remaining = load(i) - row_times(i, 0, i + 1, y);
-    const double moved =
-        std::min(displacement(i) + overrelaxation * remaining / diagonal(i), limit(i));
-    subtract_row(i, 0, i + 1, displacement(i) - moved, y);
-    displacement(i) = moved;
-  };
-  for (unsigned int sweep = 0; sweep < sweeps; ++sweep) {
-    for (unsigned int i = 0; i < m; ++i)
-      visit(i);
-    for (unsigned int i = m; i-- > 0;)
-      visit(i);
-  }
-  const Vector<double> product = multiply(y);
-  for (unsigned int i = 0; i < m; ++i)
-    force(i) = load(i) - product(i);
-}
-
 Vector<double> SchurComplement::solve(Vector<double> force) const {
   forward(size(), force);
   backward(size(), force);

@@ -98,26 +98,30 @@ std::vector<double> larger_of(std::vector<double> indicators, const Certificate&
 
 /**
  * Which meshes of an adaptive run are certified besides the last one, where an error is wanted: those
- * whose bound should be small enough, if it has kept its ratio to the indicator since it was computed
- * last, and those with three times the unknowns of that mesh.
+ * whose bound may be small enough, if it has about kept its ratio to the indicator since it was
+ * computed last, and those with three times the unknowns of that mesh, or a third of its indicator.
  */
 class CertificateSchedule {
 public:
   explicit CertificateSchedule(double wanted) : wanted(wanted) {}
 
-  bool is_due(const CycleFigures& cycle) const {
-    return wanted > 0 &&
-           (cycle.dofs >= 3. * last_unknowns || cycle.indicated * bound_over_indicator <= wanted);
+  bool is_due(const Result& result) const {
+    constexpr double margin = 1.3; // a mesh too many costs more than a certificate
+    const double indicated = result.cycles.back().indicated, bound = bound_over_indicator * indicated,
+                 norm = std::sqrt(result.energy.norm_squared);
+    return wanted > 0 && (result.mesh.dofs >= 3. * last_unknowns || 3 * indicated <= last_indicated ||
+                          bound <= margin * wanted * std::max(norm - bound, 0.));
   }
 
-  void note(const CycleFigures& cycle) {
-    last_unknowns = cycle.dofs;
-    bound_over_indicator = *cycle.certified / cycle.indicated;
+  void note(const Result& result) {
+    last_unknowns = result.mesh.dofs;
+    last_indicated = result.cycles.back().indicated;
+    bound_over_indicator = result.certified->energy_norm / last_indicated;
   }
 
 private:
   const double wanted;
-  double last_unknowns = 0, bound_over_indicator = 0;
+  double last_unknowns = 0, last_indicated = 0, bound_over_indicator = 0;
 };
 
 double most_cells(const Parameters& parameters) {
@@ -226,10 +230,10 @@ void solve_and_refine(const Scene& scene, const Parameters& parameters, Result b
                                              most_cells(parameters));
     if (!is_last) {
       std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
-      if (schedule.is_due(result.cycles.back())) {
+      if (schedule.is_due(result)) {
         certify_solution(scene, on_mesh, solution);
         if (solution.certificate) {
-          schedule.note(result.cycles.back());
+          schedule.note(result);
           if (mesh.indicator != Indicator::kelly)
             indicators = larger_of(std::move(indicators), *solution.certificate);
         }
