@@ -31,10 +31,10 @@ dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
  *
  *     delta = (int (G - G_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
  *
- * delta is judged by what the points have seen: the highest coefficients of G_h in both directions,
- * and the difference of G_h from G on the two ends of the angular interval of each cell, with half
- * the intervals along r. A jump of f along z in a cell makes it about h^(1/2); on a line of the mesh
- * it costs nothing.
+ * delta is judged by what the points have seen: by the highest coefficients of G_h in both directions
+ * and by a second G on the two ends of the angular interval of each cell, whose rules along r include
+ * the ends of the intervals; its difference from G_h and the highest modes of f on its way are added.
+ * A jump of f along z in a cell makes delta about h^(1/2); on a line of the mesh it costs nothing.
  */
 class ForceIntegral {
 public:

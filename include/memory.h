@@ -3,7 +3,6 @@
 
 #include <mpi.h>
 
-#include <optional>
 #include <string>
 
 namespace rollwave {
@@ -12,25 +11,12 @@ namespace rollwave {
 /// a factor and all else stay below half a GiB.
 constexpr unsigned int many_unknowns = 400000;
 
-/// What OpenBLAS takes for each of its threads, in one piece.
-constexpr double blas_buffer_bytes = 128. * 1024 * 1024;
-
-/// The bytes that this process may still take before it meets a limit (`ulimit -v` or `-d`);
-/// nullopt without a limit, or where that is not known.
-std::optional<double> memory_below_limit();
-
 /// The bytes that the machine, or what a batch system gives of it, has left without taking them
 /// from others; infinity where that is not known.
 double available_memory();
 
-/// Where memory is limited, takes what BLAS needs before anything else does: it would wait for ever
-/// for memory that it does not get. @throws NotSolved when there is too little.
-void reserve_blas_memory();
-
 /// Refuses work that would drive the machine out of memory, where the system might end any process
-/// instead of failing an allocation, or a process to its limit, where libraries end it in their own
-/// ways. Does nothing where the free memory is not known. All processes of @p communicator must
-/// ask.
+/// instead of failing an allocation. All processes of @p communicator must ask.
 /// @param bytes that this process needs @param purpose what needs them
 /// @throws NotEnoughMemory on all processes when one of them lacks its bytes, or a machine those of
 ///         its processes.

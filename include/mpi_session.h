@@ -8,7 +8,6 @@ namespace rollwave {
 /// program ends.
 class MpiSession {
 public:
-  /// @throws NotEnoughMemory.
   MpiSession();
 };
 

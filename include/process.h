@@ -11,10 +11,8 @@ namespace rollwave {
  *   a run whose screen goes away still writes its files.
  * - Standard streams that are closed are opened on nothing, lest a result file takes their place.
  * - Interrupts are heeded, see heed_interrupts().
- * - Where the memory of the process is limited, BLAS runs on one thread if its threads would hardly
- *   fit; the program then starts once more, with @p arguments.
  */
-void settle_process(char* arguments[]);
+void settle_process();
 
 } // namespace rollwave
 

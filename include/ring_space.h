@@ -10,7 +10,6 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -104,12 +103,12 @@ public:
   dealii::Vector<double> contact_values(const FieldVector& field) const;
 
   /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
-  /// space sparse, whatever their constraints: dissect(), when first asked for, by any thread. For
+  /// space sparse, whatever their constraints: dissect(), when first asked for. For
   /// one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
   /// make_matrix_pattern() for all processes, once MPI has been started, until it is asked for
-  /// again; by one thread at a time. Without hanging nodes all matrices share one.
+  /// again. Without hanging nodes all matrices share one.
   /// @param constraints without hanging nodes those of constraints(), or others on hub and surface
   const dealii::TrilinosWrappers::SparsityPattern&
   matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
@@ -142,7 +141,6 @@ private:
   unsigned int first_contact = 0; ///< number of its first node in surface
   std::vector<SurfaceFace> faces;
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
-  mutable std::once_flag is_ordered;
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
   mutable std::unique_ptr<const dealii::TrilinosWrappers::SparsityPattern> pattern; ///< likewise
 };

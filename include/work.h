@@ -40,9 +40,6 @@ public:
     dealii::Timer timer;
   };
 
-  /// Adds what was done elsewhere, but not how long it took.
-  void add_counts(const Work& other);
-
   void add_seconds(const std::string& phase, double seconds);
 
   /// Wall seconds by phase, in the order in which the phases were first entered.

@@ -47,6 +47,10 @@ std::vector<double> BandedMatrix::multiply(const std::vector<double>& x) const {
 void BandedMatrix::factorise() {
   const int n = size(), width = stride - 1, ld = stride;
   int info = 0;
+  // By as much as rounding may make a matrix indefinite that is hardly definite.
+  constexpr double round_off = 1e-14;
+  for (int i = 0; i < n; ++i)
+    (*this)(i, 0) *= 1 + round_off;
   dpbtrf_(&lower, &n, &width, entries.data(), &ld, &info);
   AssertThrow(info == 0, dealii::ExcMessage("a banded matrix is not positive definite"));
 }

@@ -25,34 +25,49 @@ QGauss<1> angular_rule(const Scene& scene, unsigned int degree) {
 
 namespace {
 
+/// Where a force jumps on a line of the mesh, its cells end on their own side of it by this share.
+constexpr double inside = 1e-8;
+
 /// The intervals between given radii, on each of which r f is taken for the polynomial through the
-/// points of a Gauss rule.
+/// points of a rule.
 class RadialIntervals {
 public:
-  RadialIntervals(std::vector<double> radii, unsigned int n_points)
-      : radii(std::move(radii)), gauss(n_points) {
-    for (const auto& polynomial :
-         Polynomials::generate_complete_Lagrange_basis(gauss.get_points()))
+  RadialIntervals(const std::vector<double>& radii, const Quadrature<1>& rule)
+      : radii(radii), rule(rule), highest(rule.size(), 2) {
+    for (const auto& polynomial : Polynomials::generate_complete_Lagrange_basis(rule.get_points()))
       primitives.push_back(polynomial.primitive());
-  }
-
-  RadialIntervals halved() const {
-    std::vector<double> finer = {radii.front()};
-    for (unsigned int k = 1; k < radii.size(); ++k) {
-      finer.push_back((radii[k - 1] + radii[k]) / 2);
-      finer.push_back(radii[k]);
+    const QGauss<1> gauss(rule.size());
+    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(rule.get_points());
+    for (const unsigned int mode : {0U, 1U}) {
+      const Polynomials::Legendre legendre(rule.size() - 1 - mode);
+      for (unsigned int i = 0; i < rule.size(); ++i)
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+          highest(i, mode) += gauss.weight(q) * legendre.value(gauss.point(q)[0]) *
+                              lagrange[i].value(gauss.point(q)[0]);
     }
-    return {finer, gauss.size()};
   }
 
   unsigned int size() const { return radii.size() - 1; }
-  unsigned int n_points() const { return gauss.size(); }
+  unsigned int n_points() const { return rule.size(); }
   double begin(unsigned int k) const { return radii[k]; }
   double length(unsigned int k) const { return radii[k + 1] - radii[k]; }
+
+  /// Within the interval, lest the force has jumped at its end.
   double point(unsigned int k, unsigned int i) const {
-    return radii[k] + length(k) * gauss.point(i)[0];
+    return radii[k] + length(k) * std::clamp(rule.point(i)[0], inside, 1 - inside);
   }
-  double weight(unsigned int k, unsigned int i) const { return length(k) * gauss.weight(i); }
+  double weight(unsigned int k, unsigned int i) const { return length(k) * rule.weight(i); }
+
+  /// The coefficients of the two highest Legendre polynomials, orthonormal on [0, 1], in the
+  /// polynomial with these values at the points: their absolute sum.
+  double highest_modes(const double* values) const {
+    double first = 0, second = 0;
+    for (unsigned int i = 0; i < rule.size(); ++i) {
+      first += highest(i, 0) * values[i];
+      second += highest(i, 1) * values[i];
+    }
+    return std::abs(first) + std::abs(second);
+  }
 
   /// A radius, with the weights that integrate from there to the end of its interval.
   struct Place {
@@ -75,7 +90,8 @@ public:
 
 private:
   std::vector<double> radii; ///< increasing
-  QGauss<1> gauss;
+  Quadrature<1> rule;
+  FullMatrix<double> highest;
   std::vector<Polynomials::Polynomial<double>> primitives;
 };
 
@@ -87,14 +103,17 @@ public:
   /// @param moment r f on the line
   template <typename Moment>
   Line(const RadialIntervals& intervals, double innermost_radius, const Moment& moment)
-      : n(intervals.n_points()), moments(n * intervals.size()), beyond(intervals.size()) {
-    double sum = 0;
+      : n(intervals.n_points()), moments(n * intervals.size()), beyond(intervals.size()),
+        doubt(intervals.size()) {
+    double sum = 0, sum_of_doubts = 0;
     for (unsigned int k = intervals.size(); k-- > 0;) {
       beyond[k] = sum;
       for (unsigned int i = 0; i < n; ++i) {
         moments[n * k + i] = moment(intervals.point(k, i));
         sum += intervals.weight(k, i) * moments[n * k + i];
       }
+      sum_of_doubts += intervals.length(k) * intervals.highest_modes(&moments[n * k]);
+      doubt[k] = sum_of_doubts;
       if (intervals.begin(k) <= innermost_radius)
         break;
     }
@@ -107,10 +126,14 @@ public:
     return sum;
   }
 
+  /// By how much at() may be off: a jump within an interval is no more than its highest modes.
+  double doubt_at(const RadialIntervals::Place& place) const { return doubt[place.interval]; }
+
 private:
   const unsigned int n;
   std::vector<double> moments; ///< at the points of all intervals
   std::vector<double> beyond;  ///< G at the end of each interval
+  std::vector<double> doubt;   ///< from the begin of each interval on
 };
 
 using Interval = std::pair<double, double>;
@@ -161,9 +184,9 @@ private:
   std::vector<double> weights;
 };
 
-/// The points of a radial interval among the intervals of the lines, and their halves.
+/// The points of a radial interval of cells in terms of both rules on the intervals of the lines.
 struct RadialPoints {
-  Places places, in_halves;
+  Places places, for_ends;
   unsigned int n_on_piece; ///< points of the Gauss rule on each piece of the interval
 };
 
@@ -215,7 +238,9 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
     if (cell->is_locally_owned())
       cells_of[{cell->vertex(0)[1], cell->vertex(3)[1]}].push_back(cell);
 
-  const RadialIntervals intervals(all_radii(space), angular.size()), halves = intervals.halved();
+  const std::vector<double> radii = all_radii(space);
+  const RadialIntervals intervals(radii, QGauss<1>(angular.size())),
+      with_ends(radii, QGaussLobatto<1>(angular.size() + 1));
   IntervalMap<RadialPoints> known_points;
   const HighestMode along_z(angular);
   std::string refusal;
@@ -238,16 +263,14 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
     std::vector<Line> lines;
     for (const Point<1>& point : angular.get_points())
       lines.push_back(line_at(intervals, point[0]));
-    // Where f jumps on a line of the mesh, the ends are on the cells' side of it.
-    constexpr double inside = 1e-8;
-    const std::pair<double, Line> ends[] = {{inside, line_at(halves, inside)},
-                                            {1 - inside, line_at(halves, 1 - inside)}};
+    const std::pair<double, Line> ends[] = {{inside, line_at(with_ends, inside)},
+                                            {1 - inside, line_at(with_ends, 1 - inside)}};
     std::vector<double> line;
     for (const Cell& cell : cells) {
       const Point<2> low = cell->vertex(0), high = cell->vertex(3);
       const RadialShapes& radial = shapes.on(low[0], high[0]);
       const RadialPoints& points = known_points.at(low[0], high[0], [&] {
-        return RadialPoints{intervals.places(radial.r), halves.places(radial.r),
+        return RadialPoints{intervals.places(radial.r), with_ends.places(radial.r),
                             shapes.gauss(low[0], high[0]).size()};
       });
       const unsigned int n_r = radial.r.size(), number = cell->active_cell_index();
@@ -263,8 +286,11 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
         mean += radial.weight_over_r[q] * along_z.square(of_cell + q, n_r);
       for (const auto& [t, end] : ends) {
         on_line_at(number, t, line);
-        for (unsigned int q = 0; q < n_r; ++q)
-          mean += radial.weight_over_r[q] * std::pow(end.at(points.in_halves[q]) - line[q], 2);
+        for (unsigned int q = 0; q < n_r; ++q) {
+          const auto& place = points.for_ends[q];
+          mean += radial.weight_over_r[q] *
+                  std::pow(std::abs(end.at(place) - line[q]) + end.doubt_at(place), 2);
+        }
       }
       const HighestMode along_r{QGauss<1>(points.n_on_piece)};
       for (unsigned int piece = 0; piece < n_r; piece += points.n_on_piece) {

@@ -40,7 +40,7 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
 } // namespace
 
 int main(int argc, char* argv[]) {
-  settle_process(argv);
+  settle_process();
   const Processes processes(argc, argv);
   const auto fail = [&](const std::string& kind, const std::string& message, int code) {
     processes.let_first_speak();

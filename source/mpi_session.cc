@@ -1,6 +1,5 @@
 #include "mpi_session.h"
 
-#include "memory.h"
 
 #include <mpi.h>
 
@@ -15,9 +14,6 @@ struct StartedMpi {
     if (is_running)
       return;
     is_own = true;
-    // It ends the process where it does not get them.
-    constexpr double bytes = 256. * 1024 * 1024;
-    require_memory(bytes, "MPI, which iterative solution rests on,");
     MPI_Init(nullptr, nullptr);
   }
   ~StartedMpi() {

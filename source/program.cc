@@ -1,7 +1,6 @@
 #include "program.h"
 
 #include "errors.h"
-#include "memory.h"
 #include "output.h"
 #include "parameters.h"
 #include "report.h"
@@ -67,7 +66,6 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
 
 void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
   const MPI_Comm communicator = processes.communicator();
-  reserve_blas_memory();
   const Parameters parameters = read_parameters(settings_of(line));
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)

@@ -1,7 +1,6 @@
 #include "residual_indicator.h"
 
 #include "cell_lines.h"
-#include "constant_size.h"
 #include "lexicographic_dofs.h"
 #include "parameters.h"
 #include "result.h"
@@ -58,11 +57,10 @@ std::vector<double> mapped(const std::vector<Point<1>>& points, double begin, do
 }
 
 /// u on one cell by its nodal values, the radial index running fastest.
-template <typename Size>
 struct CellField {
-  explicit CellField(Size n) : n(n) {}
+  explicit CellField(unsigned int n) : n(n) {}
 
-  Size n;
+  unsigned int n;
   std::array<double, most_nodes * most_nodes> nodal;
 
   double sum(const NodeValues& radial, const NodeValues& angular) const {
@@ -146,8 +144,7 @@ using ResidualValues = std::array<NodeValues, most_nodes>;
 /// The mean over a cell of the square of a residual, its values at the points of @p rule in each
 /// direction, with the length of its direction for what varies in one direction only, and the
 /// lesser length for all else.
-template <typename Size>
-double weighted_square(Size n, const ResidualValues& residual, const QGauss<1>& rule,
+double weighted_square(unsigned int n, const ResidualValues& residual, const QGauss<1>& rule,
                        const Lengths& length) {
   NodeValues of_z = {}, of_r = {};
   double mean = 0;
@@ -169,8 +166,7 @@ double weighted_square(Size n, const ResidualValues& residual, const QGauss<1>& 
 }
 
 /// With @p n nodes on each side of a cell.
-template <typename Size>
-std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
+std::vector<double> indicate(unsigned int n, const RingSpace& space, const Scene& scene,
                              const ContactProblem& problem, const ContactSolution& contact,
                              const FieldVector& field) {
   const auto& triangulation = space.dof_handler().get_triangulation();
@@ -182,7 +178,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
                                           LineShapes(degree, mapped(points, 0.5, 1))};
   LexicographicDofs dofs(space.dof_handler());
   const auto gather = [&](const auto& cell) {
-    CellField<Size> u(n);
+    CellField u(n);
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < n * n; ++i)
       u.nodal[i] = field(of_cell[i]);
@@ -203,7 +199,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
     if (cell->is_artificial())
       continue;
     const Rectangle box = rectangle_of(cell);
-    const CellField<Size> u = gather(cell);
+    const CellField u = gather(cell);
     const double h_r = box.height(), h_z = box.length(), per_r = 1 / h_r, per_z = 1 / h_z;
     const Lengths length = lengths[cell->active_cell_index()] = lengths_of(box, scene);
     NodeValues alpha_r; // at the points of the rule
@@ -322,7 +318,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
       continue;
     const SurfaceFace& face = space.surface_faces()[*space.surface_face(cell)];
     const Rectangle box = rectangle_of(cell);
-    const CellField<Size> u = gather(cell);
+    const CellField u = gather(cell);
     NodeValues pressure = {};
     unsigned int n_active = 0, n_contact = 0;
     for (unsigned int k = 0; k < n; ++k)
@@ -380,9 +376,7 @@ std::vector<double> indicate(Size n, const RingSpace& space, const Scene& scene,
 std::vector<double> residual_indicator(const RingSpace& space, const Scene& scene,
                                        const ContactProblem& problem,
                                        const ContactSolution& contact, const FieldVector& field) {
-  return with_constant_size(space.dof_handler().get_fe().degree + 1, [&](auto n) {
-    return indicate(n, space, scene, problem, contact, field);
-  });
+  return indicate(space.dof_handler().get_fe().degree + 1, space, scene, problem, contact, field);
 }
 
 } // namespace rollwave

@@ -181,7 +181,8 @@ RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) cons
 }
 
 const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
-  std::call_once(is_ordered, [this] { order = dissect(handler); });
+  if (order.empty())
+    order = dissect(handler);
   return order;
 }
 

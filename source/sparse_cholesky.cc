@@ -114,23 +114,6 @@ struct SparseCholesky::Cholmod {
            std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(other.i));
   }
 
-  /// Those in which L^-1 b is not zero: where b is not, and from there up to the root of the
-  /// elimination tree.
-  std::vector<bool> supernodes_reached(const std::vector<double>& b) const {
-    const auto* const first_columns = static_cast<const int*>(factor->super);
-    const auto* const row_starts = static_cast<const int*>(factor->pi);
-    const auto* const rows = static_cast<const int*>(factor->s);
-    std::vector<bool> reached(factor->nsuper), is_entered(b.size());
-    for (std::size_t s = 0; s < factor->nsuper; ++s) {
-      for (int column = first_columns[s]; column < first_columns[s + 1] && !reached[s]; ++column)
-        reached[s] = b[column] != 0 || is_entered[column];
-      const int next = row_starts[s] + first_columns[s + 1] - first_columns[s];
-      if (reached[s] && next < row_starts[s + 1])
-        is_entered[rows[next]] = true;
-    }
-    return reached;
-  }
-
   static cholmod_dense view(std::vector<double>& values) {
     cholmod_dense dense = {};
     dense.nrow = dense.nzmax = dense.d = values.size();
@@ -182,25 +165,10 @@ std::vector<double> SparseCholesky::multiply(std::vector<double> x) const {
 // cholmod_solve() would make two more copies of a large vector.
 
 std::vector<double> SparseCholesky::forward(std::vector<double> b) {
-  cholmod_factor& factor = *cholmod->factor;
-  std::vector<double> workspace(factor.maxesize);
+  std::vector<double> workspace(cholmod->factor->maxesize);
   cholmod_dense x = Cholmod::view(b), e = Cholmod::view(workspace);
-  const std::vector<bool> reached = cholmod->supernodes_reached(b);
-  // Supernodes that follow each other are a factor to CHOLMOD.
-  cholmod_factor some = factor;
-  for (std::size_t begin = 0, end; begin < factor.nsuper; begin = end) {
-    end = begin + 1;
-    if (!reached[begin])
-      continue;
-    while (end < factor.nsuper && reached[end])
-      ++end;
-    some.super = static_cast<int*>(factor.super) + begin;
-    some.pi = static_cast<int*>(factor.pi) + begin;
-    some.px = static_cast<int*>(factor.px) + begin;
-    some.nsuper = end - begin;
-    cholmod_super_lsolve(&some, &x, &e, &cholmod->common);
-    cholmod->check("solution");
-  }
+  cholmod_super_lsolve(cholmod->factor, &x, &e, &cholmod->common);
+  cholmod->check("solution");
   return b;
 }
 

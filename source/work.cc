@@ -17,19 +17,6 @@ Work::Phase::~Phase() {
   work.innermost = outer;
 }
 
-void Work::add_counts(const Work& other) {
-  load_assemblies += other.load_assemblies;
-  stiffness_assemblies += other.stiffness_assemblies;
-  orderings += other.orderings;
-  factorisations += other.factorisations;
-  dense_factorisations += other.dense_factorisations;
-  forward_substitutions += other.forward_substitutions;
-  back_substitutions += other.back_substitutions;
-  preconditioners += other.preconditioners;
-  linear_iterations += other.linear_iterations;
-  bytes_written += other.bytes_written;
-}
-
 void Work::add_seconds(const std::string& phase, double seconds) {
   const auto entry = std::find_if(phases.begin(), phases.end(),
                                   [&phase](const auto& known) { return known.first == phase; });

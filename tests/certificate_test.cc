@@ -15,7 +15,6 @@
 #include "work.h"
 
 #include <boost/math/quadrature/gauss.hpp>
-#include <deal.II/base/multithread_info.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -69,7 +68,7 @@ TEST(Certificate, HoldsForRandomScenes) {
     EXPECT_GE(certified.upper_bound, exact->energy - floor);
     const TrueErrors errors =
         measure_true_errors(*solution.space, solution.displacement, solution.result,
-                            solution.certificate, exact_reference(*exact));
+                            solution.certificate, *exact);
     EXPECT_GE(certified.energy_norm * (1 + 1e-6) + 1e-6 * std::sqrt(exact->norm_squared),
               *errors.feasible_energy_norm);
     if (certified.upper_bound - exact->energy > 100 * floor) {
@@ -85,49 +84,6 @@ TEST(Certificate, HoldsForRandomScenes) {
   std::cout << n_checked << " scenes, largest effectivity " << worst
             << ", on adaptive meshes with more than "
             << "1000 unknowns " << worst_on_fine_adaptive << std::endl;
-}
-
-// What is prepared in a thread beside the solution, or beside the force, is what is prepared after,
-// but for round-off, since deal.II sums over vectors by threads too.
-TEST(Certificate, DoesNotDependOnThreads) {
-  const auto solve = [](const std::vector<std::string>& settings, unsigned int n_threads) {
-    dealii::MultithreadInfo::set_thread_limit(n_threads);
-    const Parameters parameters = parameters_of(settings);
-    Solution solution = simulate(make_scene(parameters), parameters);
-    dealii::MultithreadInfo::set_thread_limit();
-    return solution;
-  };
-  std::size_t most_cells = 0;
-  for (const char* force :
-       {"0", "0.3", "1+0.5*r*cos(z)", "if(z<2,1,-1)", "if(r<0.7+0.1*sin(3*z),1,0)"})
-    // certified after each mesh, after one of which it is known that it is the last, after any
-    for (const char* goal : {"Mesh/Wanted relative error=0.03", "Mesh/Adaptive cycles=2",
-                             "Mesh/Adaptive cycles=100"}) {
-      const std::vector<std::string> settings = {std::string("Cylinder/Radial force=") + force,
-                                                 "Cylinder/Angular velocity=0.9",
-                                                 goal,
-                                                 "Mesh/Degree=2",
-                                                 "Mesh/Radial cells=4",
-                                                 "Mesh/Angular cells=48",
-                                                 "Mesh/Most unknowns=12000"};
-      SCOPED_TRACE(testing::PrintToString(settings));
-      const Solution with_one = solve(settings, 1), with_two = solve(settings, 2);
-      const CertifiedError& one = *with_one.result.certified;
-      const CertifiedError& two = *with_two.result.certified;
-      EXPECT_NEAR(two.energy_norm / one.energy_norm, 1, 1e-10);
-      EXPECT_NEAR(two.lower_bound / one.lower_bound, 1, 1e-13);
-      EXPECT_NEAR(two.upper_bound / one.upper_bound, 1, 1e-13);
-      const auto &of_cells = with_one.certificate->cell_bounds,
-                 &others = with_two.certificate->cell_bounds;
-      ASSERT_EQ(of_cells.size(), others.size());
-      for (unsigned int i = 0; i < of_cells.size(); ++i)
-        EXPECT_NEAR(of_cells[i], others[i], 1e-10 * one.energy_norm);
-      most_cells = std::max(most_cells, of_cells.size());
-      EXPECT_EQ(with_one.result.work.factorisations, with_two.result.work.factorisations);
-      EXPECT_EQ(with_one.result.work.orderings, with_two.result.work.orderings);
-      EXPECT_EQ(with_one.result.work.load_assemblies, with_two.result.work.load_assemblies);
-    }
-  EXPECT_GT(most_cells, 2000u); // so many that two threads take the integrals
 }
 
 TEST(Certificate, HoldsForHigherDegrees) {
@@ -146,7 +102,7 @@ TEST(Certificate, HoldsForHigherDegrees) {
       EXPECT_GE(certified.upper_bound, exact->energy) << degree;
       const TrueErrors errors =
           measure_true_errors(*solution.space, solution.displacement, solution.result,
-                              solution.certificate, exact_reference(*exact));
+                              solution.certificate, *exact);
       EXPECT_GE(certified.energy_norm, *errors.feasible_energy_norm) << degree;
       EXPECT_LE(*errors.effectivity, degree < 8 ? 6 : 12) << degree << " " << cycles;
       // The indicator has found the ends of contact: to halve all cells gains 2^(3/2).
@@ -252,12 +208,12 @@ TEST(Certificate, IsSharpInThinRings) {
             exact = find_exact_solution(scene, parameters);
           ASSERT_TRUE(exact);
           const Solution solution = simulate(scene, parameters);
-          EXPECT_EQ(solution.result.shortfall, "");
+          EXPECT_TRUE(solution.result.shortfalls.empty());
           EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
           EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
           const TrueErrors errors =
               measure_true_errors(*solution.space, solution.displacement, solution.result,
-                                  solution.certificate, exact_reference(*exact));
+                                  solution.certificate, *exact);
           const bool is_fine_adaptive =
               solution.result.cycles.size() > 1 && solution.result.mesh.dofs > 1000;
           EXPECT_LE(*errors.effectivity, is_fine_adaptive ? 2.5 : 6)
@@ -307,7 +263,7 @@ TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
           const Solution solution = simulate(made.scene, parameters);
           const TrueErrors errors =
               measure_true_errors(*solution.space, solution.displacement, solution.result,
-                                  solution.certificate, exact_reference(made.exact));
+                                  solution.certificate, made.exact);
           SCOPED_TRACE(testing::Message() << "omega " << omega << " cut " << is_cut << " degree "
                                           << degree << " cycles " << cycles);
           EXPECT_LE(solution.result.certified->lower_bound, made.exact.energy);
@@ -342,7 +298,7 @@ TEST(Certificate, HoldsForForcesWithKinks) {
   }
 }
 
-// A strip of a cell, too narrow for the points of load and rules, in which the force is another.
+// A strip of a cell, too narrow for the points of the load, in which the force is another.
 TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
   const double cell = 2 * PI / 48, line = PI / 2 + 5 * cell;
   const auto certify_jump = [](double at, int degree, int angular_cells) {
@@ -359,23 +315,9 @@ TEST(Certificate, SeesAJumpBesideALineOfTheMesh) {
     const CertifiedError fine = certify_jump(at, 4, 4800); // on which the jump is a line
     EXPECT_LE(coarse.lower_bound, fine.upper_bound) << share;
     EXPECT_GE(coarse.upper_bound, fine.lower_bound) << share;
-    for (const CertifiedError& one : {coarse, fine})
-      EXPECT_LT(one.upper_bound - one.lower_bound, 1e-7 * std::abs(one.lower_bound)) << share;
   }
 }
 
-// One panel shall be cut at the circle, not each of those into which it is halved: a mesh pays for
-// few.
-TEST(Certificate, SeesASkinThatIsThinnerThanCells) {
-  for (const std::string cells : {"119", "122", "200"}) {
-    const Parameters parameters = with(paper_scenes()[0].parameters(),
-                                       {"Cylinder/Radial force=if(r>0.999,20,0)", "Mesh/Degree=1",
-                                        "Mesh/Radial cells=8", "Mesh/Angular cells=" + cells});
-    EXPECT_LT(simulate(make_scene(parameters), parameters).result.certified->relative, 0.1);
-  }
-}
-
-// Three cells of the coarser mesh, where the points of a panel lie on either side.
 TEST(Certificate, SeesAStripOfAFewCells) {
   const double cell = 2 * PI / 480;
   const auto certify_strip = [&](double begin, int radial_cells, int angular_cells) {
@@ -411,22 +353,6 @@ TEST(Certificate, EnclosesTheEnergyToRoundOff) {
     EXPECT_GE(certified.upper_bound, expected);
     EXPECT_LT(certified.upper_bound - certified.lower_bound, 1e-11 * std::abs(expected));
   }
-}
-
-// Where a vertical line touches a spot, G is singular on all of it below the spot, and the
-// equation's residual is not: a mesh that is refined for u only has bounds of the order N^(-1/2).
-TEST(Certificate, RefinesWhereGIsSingularBesideTheForce) {
-  const auto unknowns_for = [](double wanted) {
-    const Parameters parameters =
-        with(paper_scenes()[0].parameters(),
-             {"Cylinder/Radial force=if((r-0.8)^2+(z-2)^2<0.01,1,0)", "Mesh/Degree=2",
-              "Mesh/Radial cells=4", "Mesh/Angular cells=48",
-              "Mesh/Wanted relative error=" + digits(wanted)});
-    const Result result = simulate(make_scene(parameters), parameters).result;
-    EXPECT_LE(result.certified->relative, wanted);
-    return result.mesh.dofs;
-  };
-  EXPECT_LT(unknowns_for(1e-3), 15 * unknowns_for(8e-3)); // N^(-1) would say 8, N^(-1/2) 64
 }
 
 TEST(Certificate, IsTheSameForANumberAndAnExpressionOfItsValue) {

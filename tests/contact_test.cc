@@ -48,7 +48,6 @@ public:
   }
 
   Vector<double> response(const Vector<double>&, double) override { return {}; }
-  bool relax(const Vector<double>&, unsigned int, ContactState&) const override { return false; }
   FieldVector displacement_field(const ContactState&) override { return {}; }
   FieldVector apply(const FieldVector&) const override { return {}; }
 
@@ -127,7 +126,7 @@ TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
 struct Prepared {
   explicit Prepared(const Parameters& parameters)
       : scene(make_scene(parameters)), ring(scene, parameters),
-        load(scene.force ? std::optional(assemble_load(ring.space, scene).vector) : std::nullopt),
+        load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
         solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
     solver.turn_to(scene, load, work);
   }

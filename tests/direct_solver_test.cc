@@ -102,47 +102,6 @@ TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
   }
 }
 
-/// u S u / 2 - g u
-double energy(const SchurComplement& schur, const Vector<double>& load, const Vector<double>& u) {
-  return schur.transposed_multiply(u).norm_sqr() / 2 - load * u;
-}
-
-TEST(SchurComplement, RelaxesTowardsContact) {
-  const int m = 40;
-  SparseCholesky cholesky(m);
-  cholesky.set_matrix(RandomMatrix(m).triplets);
-  cholesky.factorise();
-  const SchurComplement schur(cholesky.trailing_factor(m));
-  Vector<double> load(m), limit(m), force(m);
-  for (int i = 0; i < m; ++i) {
-    load(i) = std::cos(3 * i);
-    limit(i) = i % 5 == 0 ? std::numeric_limits<double>::infinity() : 0.01 * std::sin(7 * i);
-  }
-  Vector<double> u = schur.solve(load); // beyond its limits
-  double before = std::numeric_limits<double>::infinity();
-  for (int sweep = 0; sweep < 400; sweep += 2) {
-    schur.relax(load, limit, 2, u, force);
-    EXPECT_LE(energy(schur, load, u), before + 1e-14);
-    before = energy(schur, load, u);
-  }
-  const Vector<double> product = schur.multiply(schur.transposed_multiply(u));
-  int n_at_limit = 0;
-  for (int i = 0; i < m; ++i) {
-    EXPECT_LE(u(i), limit(i));
-    EXPECT_NEAR(force(i), load(i) - product(i), 1e-13);
-    EXPECT_GE(force(i), -1e-13);
-    EXPECT_NEAR(u(i) < limit(i) ? force(i) : 0, 0, 1e-13);
-    n_at_limit += u(i) == limit(i);
-  }
-  EXPECT_GT(n_at_limit, 5);
-  EXPECT_LT(n_at_limit, 30);
-
-  const Vector<double> solution = u;
-  schur.relax(load, limit, 1, u, force);
-  u -= solution;
-  EXPECT_LT(u.linfty_norm(), 1e-15);
-}
-
 TEST(SparseCholesky, SolvesAndMultiplies) {
   const int n = 60;
   const RandomMatrix matrix(n);
@@ -226,7 +185,7 @@ protected:
             parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=2",
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
-        load(assemble_load(ring.space, scene).vector), solver(ring.space) {
+        load(assemble_load(ring.space, scene)), solver(ring.space) {
     solver.turn_to(scene, load, work);
   }
 

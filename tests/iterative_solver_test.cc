@@ -140,7 +140,7 @@ protected:
                                   "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
-        space(*adaptive.space), load(assemble_load(space, scene).vector), direct(space),
+        space(*adaptive.space), load(assemble_load(space, scene)), direct(space),
         iterative(space) {
     direct.turn_to(scene, load, direct_work);
     iterative.turn_to(scene, load, iterative_work);

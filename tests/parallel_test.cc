@@ -257,10 +257,10 @@ TEST_F(StudyOnProcesses, IsThatOfOne) {
 }
 
 // Scenes of very different sizes, on groups of one and two processes; one of them cannot be solved.
-// Chains of continued meshes stay together, and one process goes on with what others have begun.
+// One process goes on with what others have begun.
 TEST_F(StudyOnProcesses, MayHandOutScenes) {
   const std::string study =
-      scene + " --set 'Mesh/Wanted relative error=2e-2' --set 'Study/Continue meshes=true' --set "
+      scene + " --set 'Mesh/Wanted relative error=2e-2' --set "
               "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 4000 | 1500; Road/Distance = "
               "0.8 | 0.85'";
   const Outcome alone = shell("$rollwave " + study);
@@ -276,47 +276,6 @@ TEST_F(StudyOnProcesses, MayHandOutScenes) {
   }
   const Outcome again = shell("$rollwave " + study);
   EXPECT_NE(again.text.find("(done before)"), std::string::npos);
-  expect_figures(expected);
-}
-
-// What becomes coarser depends neither on how cells are shared nor on round-off at the ends of
-// contact.
-TEST_F(StudyOnProcesses, CoarsenLikeOne) {
-  for (const char* const settings :
-       {"--set Mesh/Degree=2 --set 'Mesh/Adaptive cycles=2' --set 'Mesh/Most unknowns=2000' --set "
-        "'Mesh/Radial cells=2' --set 'Mesh/Angular cells=20' --set 'Study/Vary=Road/Distance = "
-        "0.659 | 0.663 | 0.861 | 0.945 | 0.828'",
-        "--set Mesh/Degree=1 --set 'Mesh/Adaptive cycles=4' --set 'Mesh/Most unknowns=1500' --set "
-        "'Mesh/Radial cells=4' --set 'Mesh/Angular cells=38' --set 'Cylinder/Angular velocity=1' "
-        "--set 'Study/Vary=Road/Distance = 0.7 | 0.9 | 0.8 | 0.95 | 0.75'"}) {
-    const std::string study = scene +
-                              " --set Solver/Kind=iterative --set 'Study/Continue meshes=true' "
-                              "--set 'Mesh/Marked fraction=0.8' " +
-                              settings;
-    std::filesystem::remove_all(directory / "out");
-    ASSERT_EQ(shell("$rollwave " + study).exit_code, 0);
-    const auto expected = figures();
-    for (const int n : {3, 5}) {
-      SCOPED_TRACE(n);
-      std::filesystem::remove_all(directory / "out");
-      const Outcome many = shell(on_processes(n) + "$rollwave " + study);
-      ASSERT_EQ(many.exit_code, 0) << many.text;
-      expect_figures(expected);
-    }
-  }
-}
-
-// A mesh belongs to the runs next to each other that continue it, whoever else has had one like it.
-TEST_F(StudyOnProcesses, ContinueNoMeshOfAnotherTask) {
-  const std::string study =
-      scene + " --set 'Mesh/Adaptive cycles=2' --set 'Study/Continue meshes=true' --set "
-              "'Study/Vary=Road/Distance = 0.8 | 0.85 | 0.9; Mesh/Degree = 1 | 2'";
-  ASSERT_EQ(shell("$rollwave " + study).exit_code, 0);
-  const auto expected = figures();
-  std::filesystem::remove_all(directory / "out");
-  const Outcome many =
-      shell(on_processes(2) + "$rollwave " + study + " --set 'Study/Processes per scene=1'");
-  EXPECT_EQ(many.exit_code, 0) << many.text;
   expect_figures(expected);
 }
 

@@ -26,7 +26,6 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
   EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-12);
   EXPECT_EQ(json["work"]["factorisations"], 1);   // of the stiffness matrix
-  EXPECT_EQ(json["work"]["diagonalisations"], 1); // for the dual problem
   EXPECT_LT(json["energy"]["lower_bound"], json["energy"]["upper_bound"]);
   EXPECT_LT(json["error"]["certified_relative"], 0.1);
   EXPECT_TRUE(json["cycles"][0]["indicated_error"].is_null()); // nothing was to be refined
@@ -304,15 +303,14 @@ TEST_F(Program, AdaptivePaperFiguresNeedFewUnknowns) {
   }
 }
 
-TEST_F(Program, MeasuresAgainstAFinerSolutionWhereNoExactOneIsKnown) {
+TEST_F(Program, GivesCertifiedErrorsWhereNoExactSolutionIsKnown) {
   const Outcome outcome =
       shell("$rollwave " + scene +
             " --set 'Cylinder/Radial force=r*cos(z)' --set 'Study/True errors=true' --set "
-            "'Study/Reference unknowns=20000' --set 'Study/Vary=Mesh/Global refinements = 0 | 1 | "
-            "2'");
+            "'Study/Vary=Mesh/Global refinements = 0 | 1'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  EXPECT_NE(read("study.txt").find("Errors against an adaptive solution with"), std::string::npos);
-  EXPECT_NE(read("study.csv").find("\"an adaptive solution with"), std::string::npos);
+  EXPECT_EQ(read("study.txt").find("Errors against"), std::string::npos);
+  EXPECT_NE(read("study.txt").find("certified"), std::string::npos);
 }
 
 TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {

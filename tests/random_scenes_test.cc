@@ -141,7 +141,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
       const Scene scene = make_scene(parameters);
       Solution solution = simulate_next(scene, parameters, {});
       const Result& result = solution.result;
-      if (!result.shortfall.empty()) {
+      if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;
         EXPECT_GT(result.residuals.round_off, 1e-13) << "it could have been solved better";
       } else {

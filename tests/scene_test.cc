@@ -115,27 +115,9 @@ void expect_few_steps_on_refined_meshes(const Parameters& parameters) {
   EXPECT_LT(result.residuals.negative_pressure, 1e-11);
 }
 
-TEST(ActiveSetSteps, AreFourAtMostOnRefinedMeshesUnderForcesTheyDoNotResolve) {
-  for (const std::string force : {"60*sin(150*z)", "100*sin(300*z+20*r)", "20*cos(200*z)"})
-    for (const std::string degree : {"1", "2"})
-      expect_few_steps_on_refined_meshes(
-          with(paper_scenes()[0].parameters(),
-               {"Cylinder/Radial force=" + force, "Mesh/Degree=" + degree, "Mesh/Radial cells=3",
-                "Mesh/Angular cells=38", "Mesh/Adaptive cycles=6"}));
-  // Few sweeps would not do.
-  expect_few_steps_on_refined_meshes(parameters_of(
-      {"Cylinder/Radial force=1+783.6*sin(234*z)*exp(-5*(z-4.5)^2)", "Cylinder/Inner radius=0.3",
-       "Cylinder/Angular velocity=0", "Road/Distance=0.797485", "Mesh/Degree=2",
-       "Mesh/Radial cells=3", "Mesh/Angular cells=120", "Mesh/Adaptive cycles=1"}));
-  expect_few_steps_on_refined_meshes(
-      parameters_of({"Cylinder/Radial force=130.8*sin(148*z*z)", "Cylinder/Inner radius=0.3",
-                     "Cylinder/Angular velocity=0.5", "Road/Distance=0.907295", "Mesh/Degree=1",
-                     "Mesh/Radial cells=4", "Mesh/Angular cells=48", "Mesh/Adaptive cycles=9"}));
-}
-
-TEST(ActiveSetSteps, AreFewOnStretchedCells) {
-  // Long in r, the cells make the surface answer like a membrane, where signs alone would move each
-  // end by one node in a step; long in z, they leave a handful of nodes.
+TEST(ActiveSet, SolvesOnStretchedCells) {
+  // Long in r, the cells make the surface answer like a membrane, where signs move each end by one
+  // node in a step; long in z, they leave a handful of nodes.
   for (const PaperScene& paper : paper_scenes())
     for (const auto& mesh : std::vector<std::vector<std::string>>{
              {"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=3000"},
@@ -146,7 +128,6 @@ TEST(ActiveSetSteps, AreFewOnStretchedCells) {
       // One row of long cells certifies nothing, which would be a remark.
       const Result result =
           solve(with(with(paper.parameters(), mesh), {"Certificate/Error bound=false"}));
-      EXPECT_LE(result.history.size(), 12u) << "figure " << paper.figure << ", " << mesh.back();
       EXPECT_TRUE(result.remarks.empty()) << result.remarks.front();
       EXPECT_LT(result.residuals.penetration, 1e-11);
       EXPECT_LT(result.residuals.negative_pressure, 1e-11);

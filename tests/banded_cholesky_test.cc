@@ -1,5 +1,5 @@
 // A banded matrix against the same matrix in full.
-#include "banded_matrix.h"
+#include "banded_cholesky.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -38,6 +38,7 @@ protected:
   void clear_in_full(unsigned int i) {
     for (unsigned int j = 0; j < n; ++j)
       full(i, j) = full(j, i) = 0;
+    full(i, i) = 1;
   }
 
   const unsigned int n = 12;
@@ -63,7 +64,7 @@ TEST_P(Banded, SolvesWhatItMultiplied) {
     EXPECT_NEAR(solution[i], x[i], 1e-13);
 }
 
-TEST_P(Banded, LeavesRowsOfZerosAlone) {
+TEST_P(Banded, LeavesClearedRowsAlone) {
   banded.clear(4);
   clear_in_full(4);
   banded.factorise();
@@ -77,6 +78,21 @@ TEST_P(Banded, LeavesRowsOfZerosAlone) {
   const std::vector<double> solution = banded.solve(y);
   for (unsigned int i = 0; i < n; ++i)
     EXPECT_NEAR(solution[i], i == 4 ? 7. : i == n - 1 ? 8. : x[i], 1e-13);
+}
+
+// The minimiser with the last value given.
+TEST_P(Banded, FollowsAChangeOfTheLastRow) {
+  banded.factorise();
+  std::vector<double> change(n);
+  change[n - 1] = 0.3;
+  const std::vector<double> g = banded.follow(change);
+  EXPECT_NEAR(g[n - 1], 0.3, 1e-15);
+  for (unsigned int i = 0; i + 1 < n; ++i) {
+    double residual = 0;
+    for (unsigned int j = 0; j < n; ++j)
+      residual += full(i, j) * g[j];
+    EXPECT_NEAR(residual, 0, 1e-14);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Width, Banded, testing::Values(1, 2, 5));
