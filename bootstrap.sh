@@ -40,7 +40,7 @@ build() {
   local target=$1 directory=${2:-build}
   # In one piece for each core, which read deal.II's headers once: a quarter of the time. With tests
   # or without, the objects of the program are the same and stay.
-  local sources=(source/*.cc) cores
+  local sources=(source/*/*.cc) cores
   cores=$(nproc)
   cmake -S . -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=$(((${#sources[@]} + cores - 1) / cores)) \

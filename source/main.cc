@@ -1,10 +1,10 @@
-#include "command_line.h"
-#include "errors.h"
-#include "parameters.h"
-#include "process.h"
-#include "processes.h"
-#include "program.h"
-#include "version.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
+#include "rollwave/base/system_settings.h"
+#include "rollwave/base/version.h"
+#include "rollwave/parameters/command_line.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/program.h"
 
 #include <iostream>
 #include <new>

@@ -1,14 +1,15 @@
-#include "program.h"
+#include "rollwave/program.h"
 
-#include "errors.h"
-#include "output.h"
-#include "parameters.h"
-#include "report.h"
-#include "simulation.h"
-#include "study.h"
-#include "study_output.h"
-#include "true_errors.h"
-#include "verification.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/output/output_directory.h"
+#include "rollwave/output/screen_report.h"
+#include "rollwave/output/verification_report.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/study/study_runner.h"
+#include "rollwave/study/study_table.h"
+#include "rollwave/verify/reference_solution.h"
+#include "rollwave/verify/true_errors.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -35,12 +36,10 @@ void make_study(const Parameters& parameters, const std::filesystem::path& direc
 }
 
 /// Adds the errors to the result, where the exact solution is known.
-void verify(const Scene& scene, const Parameters& parameters, Solution& solution,
-            std::ostream& out) {
-  if (const auto exact = find_exact_solution(scene, parameters)) {
-    solution.result.errors =
-        measure_true_errors(*solution.space, solution.displacement, solution.result,
-                            solution.certificate, *exact);
+void verify(const Scene& scene, Solution& solution, std::ostream& out) {
+  if (const auto exact = find_exact_solution(scene)) {
+    solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
+                                                 solution.result, solution.certificate, *exact);
     report_verification(out, scene, solution.result, *exact);
   } else
     out << "\nNo exact solution is known for this scene: its force is not constant, its "
@@ -54,7 +53,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
   Solution solution = simulate(scene, parameters, processes.communicator());
   report_result(out, to_lengths(solution.result, scene.unit));
   if (verifies)
-    verify(scene, parameters, solution, out);
+    verify(scene, solution, out);
   const WrittenFiles written = write_results(directory, scene, parameters, solution);
   report_end(out, solution.result.work, written);
   processes.wait_for_first();
@@ -65,19 +64,21 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
 } // namespace
 
 void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
-  const MPI_Comm communicator = processes.communicator();
   const Parameters parameters = read_parameters(settings_of(line));
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
-  const Scene scene = make_scene(parameters);
-  const auto directory = prepare_directory(parameters, communicator);
-
-  report_scene(out, scene, parameters);
-  if (is_study)
-    make_study(parameters, directory, processes, out);
-  else
-    solve_scene(scene, parameters, directory, processes, line.verify, out);
+  try {
+    const Scene scene = make_scene(parameters);
+    const auto directory = prepare_directory(parameters, processes.communicator());
+    report_scene(out, scene, parameters);
+    if (is_study)
+      make_study(parameters, directory, processes, out);
+    else
+      solve_scene(scene, parameters, directory, processes, line.verify, out);
+  } catch (const BadValue& value) {
+    throw BadInput(refusal(parameters.settings, value));
+  }
 }
 
 } // namespace rollwave

@@ -2,11 +2,11 @@
 // solve of the same matrix, both measured in turn in one run. Assembly is left out of both. And
 // what the indicator and the certificate cost beside the solve, with its assembly, on the same
 // mesh.
-#include "active_set.h"
-#include "certificate.h"
-#include "mesh_solution.h"
-#include "residual_indicator.h"
-#include "stiffness_triplets.h"
+#include "rollwave/adapt/residual_indicator.h"
+#include "rollwave/contact/active_set.h"
+#include "rollwave/error_bound/error_bound.h"
+#include "rollwave/run/solve_on_mesh.h"
+#include "rollwave/solver/cholmod_assembly.h"
 #include "task_beside.h"
 #include "test_scenes.h"
 
@@ -122,7 +122,7 @@ void benchmark_errors(const PaperScene& paper, const char* mesh,
     Work work;
     const dealii::Timer timer;
     const RingSpace space(*solved.triangulation, scene, parameters.mesh.degree);
-    MeshSystem system;
+    MeshCache system;
     const MeshSolution solution = solve_on_mesh(scene, parameters, space, {}, system, work);
     solve.push_back(timer.wall_time());
     residual_indicator(space, scene, solution.problem, solution.contact, solution.displacement);

@@ -1,6 +1,6 @@
 // The sub-cell fit finds the ends of contact, and resultants are sums over the nodes.
-#include "contact_patch.h"
-#include "scene.h"
+#include "rollwave/contact/contact_patch.h"
+#include "rollwave/scene/scene.h"
 
 #include <gtest/gtest.h>
 

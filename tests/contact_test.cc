@@ -1,9 +1,9 @@
 // Both contact methods find the solution, prove it by its optimality conditions, and fail honestly.
-#include "active_set.h"
-#include "assembly.h"
-#include "errors.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/contact/active_set.h"
+#include "rollwave/contact/uzawa.h"
+#include "rollwave/mesh/assembly.h"
 #include "test_scenes.h"
-#include "uzawa.h"
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/lac/full_matrix.h>
@@ -22,7 +22,7 @@ using dealii::numbers::PI;
 namespace {
 
 /// A contact problem on its own, without a ring: S u = g - N.
-class DenseSolver : public StiffnessSolver {
+class DenseSolver : public ContactLinearSolver {
 public:
   DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
       : stiffness(stiffness), load(load) {}

@@ -1,9 +1,9 @@
 // The factorisation answers every pinned problem exactly as dense algebra does.
-#include "direct_solver.h"
+#include "rollwave/solver/direct_solver.h"
 
-#include "assembly.h"
-#include "errors.h"
-#include "stiffness_triplets.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/mesh/assembly.h"
+#include "rollwave/solver/cholmod_assembly.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -46,21 +46,21 @@ struct RandomMatrix {
 };
 
 double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
-  SparseCholesky cholesky(space.n_unknowns());
+  CholmodFactor cholesky(space.n_unknowns());
   cholesky.set_matrix(assemble_triplets(space, scene, number_unknowns(space, scene)));
   return cholesky.n_factor_entries() / space.n_unknowns();
 }
 
 // Between layers of n nodes a node has at most its own and those on both sides in the factor, 3 n;
 // merged supernodes at most double that.
-TEST(SparseCholesky, RingOfManyLayersHasTheFactorOfABand) {
+TEST(CholmodFactor, RingOfManyLayersHasTheFactorOfABand) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=2000", "Mesh/Angular cells=8"});
   const Scene scene = make_scene(parameters);
   EXPECT_LE(factor_entries_per_unknown(Discretisation(scene, parameters).space, scene), 6 * 8);
 }
 
 // Around a point each level of cells is the same, so that the factor grows with their number.
-TEST(SparseCholesky, DeepMeshHasTheFactorOfAShallowOne) {
+TEST(CholmodFactor, DeepMeshHasTheFactorOfAShallowOne) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=4", "Mesh/Angular cells=16"});
   const Scene scene = make_scene(parameters);
   Discretisation ring(scene, parameters);
@@ -77,10 +77,10 @@ TEST(SparseCholesky, DeepMeshHasTheFactorOfAShallowOne) {
   EXPECT_LE(entries.back(), 1.3 * entries.front());
 }
 
-TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
+TEST(CholmodFactor, TrailingFactorIsThatOfTheSchurComplement) {
   const int n = 60;
   const RandomMatrix matrix(n);
-  SparseCholesky cholesky(n);
+  CholmodFactor cholesky(n);
   EXPECT_TRUE(cholesky.set_matrix(matrix.triplets));
   cholesky.factorise();
   FullMatrix<double> inverse(n, n);
@@ -102,10 +102,10 @@ TEST(SparseCholesky, TrailingFactorIsThatOfTheSchurComplement) {
   }
 }
 
-TEST(SparseCholesky, SolvesAndMultiplies) {
+TEST(CholmodFactor, SolvesAndMultiplies) {
   const int n = 60;
   const RandomMatrix matrix(n);
-  SparseCholesky cholesky(n);
+  CholmodFactor cholesky(n);
   LowerTriplets triplets = matrix.triplets;
   for (const bool is_first : {true, false}) { // then other values in the same pattern
     EXPECT_EQ(cholesky.set_matrix(triplets), is_first);
@@ -129,7 +129,7 @@ TEST(SparseCholesky, SolvesAndMultiplies) {
   EXPECT_TRUE(cholesky.set_matrix(triplets));
 }
 
-TEST(SparseCholesky, SolvesForSparseRightHandSides) {
+TEST(CholmodFactor, SolvesForSparseRightHandSides) {
   // The five-point star on a square, whose unknowns are eliminated row by row.
   constexpr int n = 30, size = n * n;
   LowerTriplets triplets;
@@ -140,7 +140,7 @@ TEST(SparseCholesky, SolvesForSparseRightHandSides) {
     if (row >= n)
       triplets.add(row, row - n, -1);
   }
-  SparseCholesky cholesky(size);
+  CholmodFactor cholesky(size);
   EXPECT_TRUE(cholesky.set_matrix(triplets));
   cholesky.factorise();
   for (const std::vector<int>& places : std::vector<std::vector<int>>{
@@ -155,23 +155,23 @@ TEST(SparseCholesky, SolvesForSparseRightHandSides) {
   }
 }
 
-TEST(SparseCholesky, RefusesAnIndefiniteMatrix) {
+TEST(CholmodFactor, RefusesAnIndefiniteMatrix) {
   LowerTriplets triplets;
   triplets.add(0, 0, 1);
   triplets.add(1, 0, 2);
   triplets.add(1, 1, 1);
-  SparseCholesky cholesky(2);
+  CholmodFactor cholesky(2);
   cholesky.set_matrix(triplets);
   EXPECT_THROW(cholesky.factorise(), NotSolved);
 }
 
 // Its parallel regions would wake threads for a few numbers each.
-TEST(SparseCholesky, StartsNoThreads) {
+TEST(CholmodFactor, StartsNoThreads) {
   const auto n_threads = [] {
     using Entries = std::filesystem::directory_iterator;
     return std::distance(Entries("/proc/self/task"), Entries());
   };
-  SparseCholesky cholesky(400);
+  CholmodFactor cholesky(400);
   cholesky.set_matrix(RandomMatrix(400).triplets);
   const auto before = n_threads();
   cholesky.factorise();

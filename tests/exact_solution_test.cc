@@ -1,7 +1,7 @@
 // The semi-analytic answer: known digits, asymptotic laws, and the optimality conditions point by
 // point.
-#include "exact_field.h"
-#include "exact_solution.h"
+#include "rollwave/exact/exact_field.h"
+#include "rollwave/exact/exact_solution.h"
 
 #include "test_scenes.h"
 
@@ -18,12 +18,12 @@ using dealii::numbers::PI;
 
 namespace {
 
-TEST(RadialModes, AreThoseOfBesselFunctions) {
+TEST(BesselModes, AreThoseOfBesselFunctions) {
   using boost::math::cyl_bessel_j;
   using boost::math::cyl_neumann;
   for (const double omega : {0.3, 0.8, 1.}) {
     const double a = 0.4;
-    const RadialModes modes(a, 1, omega);
+    const BesselModes modes(a, 1, omega);
     for (const double k : {1., 2., 7., 20.}) {
       const double y_hub = cyl_neumann(k, k * omega * a), j_hub = cyl_bessel_j(k, k * omega * a);
       const auto mode = [&](double r) {
@@ -45,22 +45,22 @@ TEST(RadialModes, AreThoseOfBesselFunctions) {
   }
 }
 
-TEST(RadialModes, HaveTheirLimits) {
+TEST(BesselModes, HaveTheirLimits) {
   // Without rotation sigma_k = (k / b) coth(k ln(b / a)).
   for (const double a : {0.01, 0.5, 0.99, 0.9999}) {
-    const RadialModes modes(a, 1, 0);
+    const BesselModes modes(a, 1, 0);
     EXPECT_NEAR(modes.compliance(0), std::log(1 / a), 1e-15);
     for (const double k : {1., 10., 100., 777.7, 30000.})
       EXPECT_NEAR(modes.compliance(k) * k / std::tanh(k * std::log(1 / a)), 1, 1e-11) << a << k;
   }
   // sigma_k / k tends to sqrt(1/b^2 - omega^2), and at omega = 1/b sigma_k to 0.918497 k^(2/3) / b.
-  EXPECT_NEAR(1 / (2e5 * RadialModes(1, 2, 0.3).compliance(2e5)), std::sqrt(0.25 - 0.09), 1e-5);
-  EXPECT_NEAR(2 / (RadialModes(1, 2, 0.5).compliance(1e6) * std::pow(1e6, 2. / 3)), 0.918497, 1e-4);
+  EXPECT_NEAR(1 / (2e5 * BesselModes(1, 2, 0.3).compliance(2e5)), std::sqrt(0.25 - 0.09), 1e-5);
+  EXPECT_NEAR(2 / (BesselModes(1, 2, 0.5).compliance(1e6) * std::pow(1e6, 2. / 3)), 0.918497, 1e-4);
 }
 
-TEST(ContactPressureSeries, HasItsTransform) {
+TEST(GegenbauerPressure, HasItsTransform) {
   for (const double nu : {0., 1. / 6, 1., 7. / 6}) {
-    const ContactPressureSeries series(1, 0.7, nu, {0.3, 0.1, -0.2, 0.05, 0.02});
+    const GegenbauerPressure series(1, 0.7, nu, {0.3, 0.1, -0.2, 0.05, 0.02});
     for (const double k : {0., 3., 40.}) {
       // z = m + w sin(s) resolves the ends.
       double cosine = 0, sine = 0;

@@ -1,8 +1,8 @@
 // Whatever ends a run, it says why, and every file is complete or absent; a stopped study goes on.
-#include "contact_solver.h"
-#include "errors.h"
-#include "interrupt.h"
-#include "program.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
+#include "rollwave/contact/contact_problem.h"
+#include "rollwave/program.h"
 #include "test_scenes.h"
 
 #include <nlohmann/json.hpp>
@@ -245,8 +245,8 @@ TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
       return road(z);
     };
     const Result result = simulate(scene, parameters).result;
-    std::cerr << shortfall_text(result) << " [" << result.cycles.size() << " " << result.history.size()
-              << " " << result.certified.has_value() << "]";
+    std::cerr << shortfall_text(result) << " [" << result.cycles.size() << " "
+              << result.history.size() << " " << result.certified.has_value() << "]";
     std::exit(result.is_interrupted ? 2 : 0);
   };
   EXPECT_EXIT(simulate_interrupted({"Mesh/Adaptive cycles=3"}), testing::ExitedWithCode(2),

@@ -1,9 +1,9 @@
 // G_h is G where a force is a polynomial, and delta is an upper estimate of what it misses.
-#include "force_integral.h"
+#include "rollwave/error_bound/force_integral.h"
 
-#include "errors.h"
 #include "floating_point.h"
-#include "scene.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/scene/scene.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +18,9 @@ namespace {
 struct OnMesh {
   explicit OnMesh(const std::string& force, unsigned int degree = 2,
                   const std::string& radial_cells = "4", const std::string& angular_cells = "30")
-      : parameters(parameters_of({"Cylinder/Radial force=" + force,
-                                  "Mesh/Degree=" + std::to_string(degree),
-                                  "Mesh/Radial cells=" + radial_cells,
-                                  "Mesh/Angular cells=" + angular_cells})),
+      : parameters(parameters_of(
+            {"Cylinder/Radial force=" + force, "Mesh/Degree=" + std::to_string(degree),
+             "Mesh/Radial cells=" + radial_cells, "Mesh/Angular cells=" + angular_cells})),
         scene(make_scene(parameters)), mesh(scene, parameters), shapes(scene, degree),
         integral(mesh.space, scene, shapes) {}
 
@@ -80,7 +79,8 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
   const auto smooth = [](double r, double z) { return std::sin(9 * z) * (1 - r * r) / 2; };
   for (const unsigned int degree : {1, 2, 4})
     for (const auto& [radial, angular] : {std::pair("4", "30"), {"7", "71"}, {"16", "200"}}) {
-      SCOPED_TRACE(testing::Message() << "degree " << degree << " on " << radial << " x " << angular);
+      SCOPED_TRACE(testing::Message()
+                   << "degree " << degree << " on " << radial << " x " << angular);
       const auto expect_charged = [&](const char* f, const auto& exact) {
         OnMesh force(f, degree, radial, angular);
         const double missed = force.distance_to(exact);

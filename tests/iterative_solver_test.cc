@@ -1,13 +1,13 @@
 // The iterative kind of solver gives the answer of the direct kind, and says what it took.
-#include "iterative_solver.h"
+#include "rollwave/solver/iterative_solver.h"
 
-#include "active_set.h"
-#include "assembly.h"
-#include "errors.h"
-#include "mesh_solution.h"
-#include "multigrid_solver.h"
-#include "simulation.h"
-#include "solver_choice.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/contact/active_set.h"
+#include "rollwave/mesh/assembly.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/run/solve_on_mesh.h"
+#include "rollwave/solver/amg_cg.h"
+#include "rollwave/solver/choose_solver.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
@@ -33,7 +33,7 @@ struct Answer {
   }
 
   Result result = {};
-  MeshSystem system;
+  MeshCache system;
   MeshSolution on_mesh;
 };
 
@@ -140,8 +140,7 @@ protected:
                                   "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
-        space(*adaptive.space), load(assemble_load(space, scene)), direct(space),
-        iterative(space) {
+        space(*adaptive.space), load(assemble_load(space, scene)), direct(space), iterative(space) {
     direct.turn_to(scene, load, direct_work);
     iterative.turn_to(scene, load, iterative_work);
   }
@@ -293,10 +292,10 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   const std::optional<FieldVector> no_load;
   Work work;
   const SolverChoice choice =
-      make_stiffness_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+      choose_solver(SolverKind::automatic, ring.space, scene, no_load, work);
   EXPECT_NE(dynamic_cast<const IterativeSolver*>(choice.solver.get()), nullptr);
   EXPECT_NE(choice.remark.find("300000 contact nodes"), std::string::npos) << choice.remark;
-  EXPECT_THROW(make_stiffness_solver(SolverKind::direct, ring.space, scene, no_load, work),
+  EXPECT_THROW(choose_solver(SolverKind::direct, ring.space, scene, no_load, work),
                NotEnoughMemory);
 }
 
@@ -307,7 +306,7 @@ TEST(SolverChoice, IsDirectWhereThatFits) {
   const std::optional<FieldVector> no_load;
   Work work;
   const SolverChoice choice =
-      make_stiffness_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+      choose_solver(SolverKind::automatic, ring.space, scene, no_load, work);
   EXPECT_NE(dynamic_cast<const DirectSolver*>(choice.solver.get()), nullptr);
   EXPECT_EQ(choice.remark, "");
 }
@@ -327,7 +326,7 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
   constraints.close();
 
   Work work;
-  MultigridSolver solver(space);
+  AmgCg solver(space);
   solver.set_matrix(scene, constraints, stiffness_products(space, scene), work);
   const FieldVector rhs = random_load(space, constraints);
   FieldVector u = space.make_field();

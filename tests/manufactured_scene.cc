@@ -1,6 +1,6 @@
 #include "manufactured_scene.h"
 
-#include "radial_modes.h"
+#include "rollwave/exact/bessel_modes.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -34,10 +34,10 @@ std::function<double(double)> series(double m, const std::vector<double>& cosine
 } // namespace
 
 ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
-                                    double angular_velocity, const ContactPressureSeries& pressure,
+                                    double angular_velocity, const GegenbauerPressure& pressure,
                                     double end_exponent, double gap_factor, double zone_margin,
                                     unsigned int n_modes) {
-  const RadialModes modes(inner_radius, outer_radius, angular_velocity);
+  const BesselModes modes(inner_radius, outer_radius, angular_velocity);
   const double m = pressure.middle(), w = pressure.half_width();
 
   // u(b, m + x) = sum_k (cosine_k cos(k x) + sine_k sin(k x))

@@ -1,8 +1,8 @@
 #ifndef ROLLWAVE_MANUFACTURED_SCENE_H
 #define ROLLWAVE_MANUFACTURED_SCENE_H
 
-#include "exact_solution.h"
-#include "scene.h"
+#include "rollwave/exact/exact_solution.h"
+#include "rollwave/scene/scene.h"
 
 namespace rollwave {
 
@@ -13,7 +13,7 @@ struct ManufacturedScene {
 
 /**
  * A scene made to have the given pressure, for any ring, any speed, and an interval of contact
- * anywhere. The displacement of the surface follows from the compliances of RadialModes,
+ * anywhere. The displacement of the surface follows from the compliances of BesselModes,
  *
  *     u(b, z) = -sum_k c_k lambda_k e^(i k z),   a(u, u) = 2 pi b sum_k c_k |lambda_k|^2,
  *
@@ -23,7 +23,7 @@ struct ManufacturedScene {
  * out of u is of the order n_modes^-(1 + s) (n_modes^-s for a singular pressure).
  */
 ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
-                                    double angular_velocity, const ContactPressureSeries& pressure,
+                                    double angular_velocity, const GegenbauerPressure& pressure,
                                     double end_exponent, double gap_factor, double zone_margin,
                                     unsigned int n_modes);
 

@@ -1,8 +1,8 @@
 // Scenes made to have a given pressure are solved with that pressure: contact anywhere, uneven, at
 // any speed, with free or singular ends; and a smooth solution without contact.
 #include "manufactured_scene.h"
+#include "rollwave/verify/true_errors.h"
 #include "test_scenes.h"
-#include "true_errors.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <deal.II/base/numbers.h>
@@ -35,7 +35,7 @@ TEST(ManufacturedScene, UnevenContactIsFoundAtEverySpeed) {
   for (const double omega : {0., 0.4, 0.5}) {
     const double s = omega == 0.5 ? 1. / 3 : 1. / 2;
     // b = 2; the coefficients of odd index tilt the pressure.
-    const ContactPressureSeries pressure(4.9, 0.61, 1.5 - s, {0.3, 0.1, 0.02, -0.01});
+    const GegenbauerPressure pressure(4.9, 0.61, 1.5 - s, {0.3, 0.1, 0.02, -0.01});
     const ManufacturedScene made =
         manufacture_scene(0.8, 2, omega, pressure, 1 - s, 0.3, 0.4, 8000);
     for (const int degree : {1, 2}) {
@@ -53,7 +53,7 @@ TEST(ManufacturedScene, UnevenContactIsFoundAtEverySpeed) {
 TEST(ManufacturedScene, SingularPressureConvergesLikeTheSquareRoot) {
   // The ends of the zone are nodes of every mesh.
   const double w = 2 * PI / 12;
-  const ContactPressureSeries pressure(3 * PI / 2, w, 0, {1, 0.2});
+  const GegenbauerPressure pressure(3 * PI / 2, w, 0, {1, 0.2});
   const ManufacturedScene made = manufacture_scene(0.5, 1, 0.6, pressure, -0.5, 0, 0, 60000);
   for (const int degree : {1, 2}) {
     const Errors coarse = solve(made, degree, 0), fine = solve(made, degree, 3);

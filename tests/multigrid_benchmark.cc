@@ -1,7 +1,7 @@
 // Iterations of conjugate gradients with multigrid, to 1e-10 from zero for a random right-hand
 // side, with the contact nodes within 0.48 of the lowest point pinned: a table in Markdown.
-#include "multigrid_solver.h"
-#include "scene.h"
+#include "rollwave/scene/scene.h"
+#include "rollwave/solver/amg_cg.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
@@ -41,7 +41,7 @@ void benchmark(const char* mesh, double inner_radius, const std::pair<int, int>&
     constraints.close();
 
     Work work;
-    MultigridSolver solver(space);
+    AmgCg solver(space);
     solver.set_matrix(scene, constraints, stiffness_products(space, scene), work);
     const FieldVector rhs = random_load(space, constraints);
     FieldVector u = space.make_field();

@@ -1,5 +1,5 @@
 // Many processes give the answer of one, and end together.
-#include "program.h"
+#include "rollwave/program.h"
 
 #include <nlohmann/json.hpp>
 

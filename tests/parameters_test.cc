@@ -1,9 +1,9 @@
 // Every value a key admits is read, everything else is refused in one message with all that helps.
-#include "errors.h"
 #include "floating_point.h"
 #include "own_path.h"
-#include "parameters.h"
-#include "scene.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/scene/scene.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // from 1e3 to 4e6 unknowns, the seconds of each phase, the peak memory, and how both grow; and the
 // seconds that an adaptive run from scratch needs for a wanted error of both the force F and the
 // energy J. Each run has a process of its own, so that peaks of memory are its own.
-#include "memory.h"
-#include "solution_vtu.h"
+#include "rollwave/base/memory.h"
+#include "rollwave/output/vtu.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/timer.h>

@@ -1,7 +1,7 @@
 // The program as a user calls it: files, messages and exit codes.
-#include "parameters.h"
-#include "program.h"
-#include "scene.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/program.h"
+#include "rollwave/scene/scene.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,7 +25,7 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   EXPECT_EQ(json["mesh"]["dofs"], 4 * 2 * 60 * 2);
   EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
   EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-12);
-  EXPECT_EQ(json["work"]["factorisations"], 1);   // of the stiffness matrix
+  EXPECT_EQ(json["work"]["factorisations"], 1); // of the stiffness matrix
   EXPECT_LT(json["energy"]["lower_bound"], json["energy"]["upper_bound"]);
   EXPECT_LT(json["error"]["certified_relative"], 0.1);
   EXPECT_TRUE(json["cycles"][0]["indicated_error"].is_null()); // nothing was to be refined

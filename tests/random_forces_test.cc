@@ -1,7 +1,7 @@
 // Enclosures of J under forces that are expressions, with strips, spots, jumps and kinks: what two
 // meshes certify about one scene cannot be disjoint.
 #include "draw.h"
-#include "simulation.h"
+#include "rollwave/run/simulation.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>

@@ -1,8 +1,8 @@
 // Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
 #include "draw.h"
-#include "errors.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/verify/reference_solution.h"
 #include "test_scenes.h"
-#include "verification.h"
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ struct Counts {
 
 /// J and F of the exact solution lie within the certificate, where there is one.
 bool compare_with_exact(const Scene& scene, const Parameters& parameters, const Result& result) {
-  const auto exact = find_exact_solution(scene, parameters);
+  const auto exact = find_exact_solution(scene);
   if (!exact)
     return false;
   const CertifiedError& certified = *result.certified;

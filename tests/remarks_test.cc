@@ -1,6 +1,6 @@
 // Remarks say what the figures do not show, and are left out where there is nothing to say.
 #include "floating_point.h"
-#include "simulation.h"
+#include "rollwave/run/simulation.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>

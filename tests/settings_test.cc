@@ -1,7 +1,7 @@
 // The reader of parameter files keeps the place of every entry and refuses what it cannot read.
-#include "errors.h"
 #include "own_path.h"
-#include "settings.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/parameters/prm_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // study.csv is read as it was written, and torn rows are no runs.
-#include "study_run.h"
+#include "rollwave/study/study_record.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Scenes on the mesh of the one before: the same answers, and no work twice.
 #include "own_path.h"
-#include "simulation.h"
-#include "study.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/study/study_runner.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include "test_scenes.h"
 
-#include "ring_mesh.h"
+#include "rollwave/mesh/ring_mesh.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -49,7 +49,7 @@ const std::vector<PaperScene>& paper_scenes() {
 }
 
 Discretisation::Discretisation(const Scene& scene, const Parameters& parameters)
-    : triangulation(make_ring_mesh(scene, parameters, MPI_COMM_SELF)),
+    : triangulation(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree) {}
 
 FieldVector random_load(const RingSpace& space,

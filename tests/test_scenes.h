@@ -1,8 +1,9 @@
 #ifndef ROLLWAVE_TEST_SCENES_H
 #define ROLLWAVE_TEST_SCENES_H
 
-#include "direct_solver.h"
-#include "simulation.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/solver/direct_solver.h"
 
 #include <deal.II/grid/tria.h>
 

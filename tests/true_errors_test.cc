@@ -1,11 +1,11 @@
 // True errors and their orders: 1 for Q1 and 3/2 for Q2 where contact ends freely, 1/2 where the
 // zone cuts it short, at and below the critical speed.
-#include "true_errors.h"
+#include "rollwave/verify/true_errors.h"
 
-#include "exact_field.h"
+#include "rollwave/exact/exact_field.h"
 
+#include "rollwave/verify/reference_solution.h"
 #include "test_scenes.h"
-#include "verification.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -40,7 +40,7 @@ TEST_P(Order, IsTheExpectedOne) {
   const Parameters parameters = with(parameters_of(scene.scene),
                                      {"Mesh/Radial cells=" + std::to_string(scene.radial_cells),
                                       "Mesh/Angular cells=" + std::to_string(scene.angular_cells)});
-  const auto exact = find_exact_solution(make_scene(parameters), parameters);
+  const auto exact = find_exact_solution(make_scene(parameters));
   ASSERT_TRUE(exact);
   for (const int degree : {1, 2}) {
     const auto error = [&](int refinements) {
@@ -87,7 +87,7 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
       const Parameters parameters =
           parameters_of({scene_key, "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
                          "Mesh/Angular cells=24", "Mesh/Adaptive cycles=1000"});
-      const auto exact = find_exact_solution(make_scene(parameters), parameters);
+      const auto exact = find_exact_solution(make_scene(parameters));
       ASSERT_TRUE(exact);
       double errors[2], unknowns[2];
       for (const int i : {0, 1}) {
@@ -113,12 +113,11 @@ TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
   const Parameters parameters =
       parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=24"});
   const Scene scene = make_scene(parameters);
-  const auto exact = find_exact_solution(scene, parameters);
+  const auto exact = find_exact_solution(scene);
   ASSERT_TRUE(exact);
   const Solution solution = simulate(scene, parameters);
-  const TrueErrors errors =
-      measure_true_errors(*solution.space, solution.displacement, solution.result,
-                          solution.certificate, *exact);
+  const TrueErrors errors = measure_true_errors(*solution.space, solution.displacement,
+                                                solution.result, solution.certificate, *exact);
 
   const ExactField field({0.5, 1, 0.5, 0.8, 0}, *exact, 400);
   const auto& space = *solution.space;
@@ -151,7 +150,7 @@ TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
 TEST(TrueErrors, AreNotToldWhereTheExactSolutionIsNoBetter) {
   const auto resolves = [](const std::vector<std::string>& settings) {
     const Parameters parameters = parameters_of(settings);
-    const auto exact = find_exact_solution(make_scene(parameters), parameters);
+    const auto exact = find_exact_solution(make_scene(parameters));
     return exact && errors_of(parameters, *exact).is_resolved;
   };
   EXPECT_TRUE(resolves({"Mesh/Degree=2", "Mesh/Radial cells=4", "Mesh/Angular cells=60"}));
@@ -166,7 +165,7 @@ TEST(TrueErrors, AreNotToldWhereTheExactSolutionIsNoBetter) {
 TEST(FindExactSolution, KnowsItsLimits) {
   const auto find = [](const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_of(assignments);
-    return find_exact_solution(make_scene(parameters), parameters);
+    return find_exact_solution(make_scene(parameters));
   };
   EXPECT_TRUE(find({"Cylinder/Radial force=0.5"}));
   EXPECT_FALSE(find({"Cylinder/Radial force=0.5*r"}));

@@ -1,10 +1,10 @@
 // Any bytes, taken as a parameter file or as a command line, are accepted or refused in one message
 // that a terminal can show; what is accepted is a scene, and is read back from what is printed.
-#include "command_line.h"
-#include "errors.h"
-#include "parameters.h"
-#include "scene.h"
-#include "settings.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/parameters/command_line.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/parameters/prm_reader.h"
+#include "rollwave/scene/scene.h"
 
 #include <algorithm>
 #include <cctype>

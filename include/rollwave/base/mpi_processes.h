@@ -1,0 +1,67 @@
+#ifndef ROLLWAVE_BASE_MPI_PROCESSES_H
+#define ROLLWAVE_BASE_MPI_PROCESSES_H
+
+#include <mpi.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace dealii::Utilities::MPI {
+class MPI_InitFinalize;
+}
+
+namespace rollwave {
+
+/// The processes that an MPI launcher (mpirun, srun) has started together. MPI is started where
+/// there are several, and ends with this object.
+class Processes {
+public:
+  Processes(int& argc, char**& argv);
+  ~Processes();
+  Processes(const Processes&) = delete;
+  Processes& operator=(const Processes&) = delete;
+
+  MPI_Comm communicator() const { return mpi ? MPI_COMM_WORLD : MPI_COMM_SELF; }
+
+  /// Whether this is the process that speaks for all.
+  bool is_first() const;
+
+  /// Waits until the first process is here as well, such as with files that it alone writes.
+  void wait_for_first() const;
+
+  /// Waits, on all but the first process, until that should have ended them all: what has failed on
+  /// all of them is told once.
+  void let_first_speak() const;
+
+  /// Ends the other processes, wherever they are, after a failure of this one; returns @p
+  /// exit_code.
+  int end(int exit_code) const;
+
+private:
+  std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
+};
+
+/// Whether a communicator is that of one process: then MPI may not even be running.
+bool is_alone(MPI_Comm communicator);
+
+unsigned int count_processes(MPI_Comm communicator);
+
+/// The number of this process among those of a communicator, from 0 on.
+unsigned int process_number(MPI_Comm communicator);
+
+/// The sum over those processes of a communicator that share this one's machine.
+double sum_on_machine(MPI_Comm communicator, double value);
+
+/// The text that the first process has, on all of them.
+std::string share_text(MPI_Comm communicator, const std::string& text);
+
+/// The text of the first process that has one, on all of them; empty when none has.
+std::string first_text(MPI_Comm communicator, const std::string& text);
+
+/// The texts of all processes, on the first of them; nothing on the others.
+std::vector<std::string> gather_texts(MPI_Comm communicator, const std::string& text);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef ROLLWAVE_CONTACT_CONTACT_PATCH_H
+#define ROLLWAVE_CONTACT_CONTACT_PATCH_H
+
+#include "rollwave/contact/contact_problem.h"
+
+#include <optional>
+#include <utility>
+
+namespace rollwave {
+
+/// What the road feels of the contact. Forces are per unit length of the axle and unit shear
+/// modulus, so that they are lengths, like the displacement.
+struct ContactPatch {
+  /// The angles at which contact begins and ends; nullopt without contact.
+  std::optional<std::pair<double, double>> ends;
+  double force;         ///< F = b int lambda dz
+  double vertical_load; ///< b int lambda cos(z - 3 pi/2) dz
+  double
+      work_conjugate_load; ///< G = b int lambda / cos(z - 3 pi/2) dz, that is -dJ/dc on a flat road
+  double peak_pressure;    ///< max lambda_i
+  unsigned int active_nodes;
+
+  double half_width() const { return ends ? (ends->second - ends->first) / 2 : 0; }
+};
+
+/**
+ * Resultants by the rule [.,.]_h of SurfaceNode and the ends of contact.
+ *
+ * Outside of an end, at the distance d, the gap grows like d^(1+s), and inside the pressure like
+ * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) is linear in
+ * z, and its root is the end: a straight line through the second and the fourth node outside (the
+ * first carries the error of the end cell), or the first two when there are no more, or else the
+ * same with the pressure inside. Where the zone cuts the contact short, the end is the zone's.
+ * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
+ * used when the nodes are further apart than that.
+ */
+ContactPatch measure_contact_patch(const Scene& scene, const std::vector<SurfaceNode>& nodes,
+                                   const ContactProblem& problem, const ContactSolution& solution);
+
+} // namespace rollwave
+
+#endif

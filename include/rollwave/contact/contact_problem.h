@@ -1,0 +1,90 @@
+#ifndef ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
+#define ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
+
+#include "rollwave/solver/contact_linear_solver.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+enum class ContactMethod {
+  /// "active set": primal-dual active set (semismooth Newton); needs no step length.
+  active_set,
+  /// "uzawa": projected gradient steps on the pressure, the method of Ross and Bercovier.
+  uzawa
+};
+
+enum class UzawaStop {
+  /// "gap": ||p_new - p|| / rho, the violation of the contact conditions as a displacement.
+  gap,
+  /// "change": ||u_new - u||, the rule behind the paper's figure 9.
+  change
+};
+
+/// Section `Contact`.
+struct ContactOptions {
+  ContactMethod method = ContactMethod::active_set;
+  std::optional<double> rho; ///< nullopt: from an estimate of the largest compliance
+  UzawaStop stop = UzawaStop::gap;
+  double tolerance = 1e-8;
+  unsigned int most_steps = 20000;
+};
+
+/**
+ * The discrete contact conditions, for every contact node i:
+ *
+ *     u_i <= phi_i,   N_i >= 0,   N_i (phi_i - u_i) = 0,   pressure lambda_i = N_i / weight_i.
+ */
+struct ContactProblem {
+  dealii::Vector<double> road;           ///< phi_i, a length
+  dealii::Vector<double> weight;         ///< the nodes' areas, see SurfaceNode
+  double unit = 1;                       ///< of length, Scene::unit
+  MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
+
+  unsigned int size() const { return road.size(); }
+};
+
+/// What the residuals of a solved scene are to be: relative to its data.
+constexpr double wanted_residual = 1e-10;
+
+/// What contact methods ask of ContactLinearSolver::solve(): little while the contact still
+/// changes, and what the solution they return shall hold to.
+constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
+
+/// The contact conditions at the contact nodes of @p space.
+ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene);
+
+/// One line of the history of a contact iteration.
+struct ContactStep {
+  unsigned int active;    ///< nodes in contact
+  unsigned int changed;   ///< nodes that entered or left contact after this step
+  double penetration;     ///< max (u_i - phi_i, 0), a length
+  double lowest_pressure; ///< min (lambda_i, 0)
+
+  /// Active set: the number of changed nodes over that of all. Uzawa: what its stopping rule
+  /// measures, relative to u.
+  double residual;
+};
+
+struct ContactSolution {
+  ContactState state;
+  std::vector<bool> active;
+  std::vector<ContactStep> history;
+  double rho = 0;          ///< Uzawa's step length; 0 for the active set method
+  std::string remark = ""; ///< anything unusual the user should know
+
+  /// Where the user has interrupted the iteration: after what, and what is missing.
+  std::optional<std::string> shortfall;
+};
+
+/// Solves by the method of @p options, beginning with the contact pressures @p start (none when
+/// it has no entries). @throws NotSolved as the methods do.
+ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
+                              const ContactOptions& options,
+                              const dealii::Vector<double>& start = {});
+
+} // namespace rollwave
+
+#endif

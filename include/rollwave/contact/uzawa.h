@@ -1,0 +1,49 @@
+#ifndef ROLLWAVE_CONTACT_UZAWA_H
+#define ROLLWAVE_CONTACT_UZAWA_H
+
+#include "rollwave/contact/contact_problem.h"
+
+#include <optional>
+
+namespace rollwave {
+
+struct UzawaSettings {
+  /// Step length, pressure over displacement in the user's lengths; nullopt: automatic.
+  std::optional<double> rho;
+  UzawaStop stop;
+  double tolerance;
+  unsigned int most_steps;
+};
+
+/**
+ * The method of Ross and Bercovier: with p = -lambda <= 0, from p = 0 or the pressures lambda of @p
+ * start,
+ *
+ *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
+ *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
+ *
+ * With mu the largest eigenvalue of the compliance, which maps -p to -u, on a set of nodes, it
+ * converges from any start for 0 < rho < 2 / mu of all contact nodes, and only below 2 / mu of
+ * those that end up in contact. A step length that is too large shows in a residual that stops
+ * falling.
+ *
+ * The user may interrupt it after any step: p and u_h(p) satisfy the equation, and what they lack
+ * of the contact conditions is told in ContactSolution::shortfall.
+ *
+ * @throws NotSolved when it diverges, with the largest rho that can converge, or after
+ *         settings.most_steps steps.
+ */
+ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
+                      const UzawaSettings& settings, const dealii::Vector<double>& start = {});
+
+/**
+ * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes
+ * selected by @p nodes: C M x = mu x, C = S^-1 restricted to them, M the diagonal of their weights.
+ * By power iteration, which approaches it from below, to a relative accuracy of about 1e-6.
+ */
+double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
+                          const std::vector<bool>& nodes);
+
+} // namespace rollwave
+
+#endif

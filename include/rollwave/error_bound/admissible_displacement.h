@@ -1,0 +1,85 @@
+#ifndef ROLLWAVE_ERROR_BOUND_ADMISSIBLE_DISPLACEMENT_H
+#define ROLLWAVE_ERROR_BOUND_ADMISSIBLE_DISPLACEMENT_H
+
+#include "rollwave/contact/contact_problem.h"
+
+#include <deal.II/base/polynomial.h>
+
+#include <functional>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+
+/**
+ * The trace on r = b of a displacement v that obeys v <= phi at every angle of the contact zone,
+ * not only at nodes. From a discrete displacement u_h that obeys phi at the contact nodes,
+ *
+ *     v(b, z) = u_h(b, z) + c(z),   c = phi - u_h on edges whose nodes are all in contact,
+ *                                   c = -(u_h - phi)^+ on other edges in the zone.
+ *
+ * c vanishes at the vertices. On an edge that the zone ends on, c continues outside of the zone as
+ * a straight line from its value there to zero at the vertex.
+ */
+class AdmissibleTrace {
+public:
+  /// A stretch of an edge, in the coordinate t from 0 at its begin to 1 at its end.
+  struct Piece {
+    enum class Kind {
+      free,     ///< outside of the zone: c = 0
+      limited,  ///< c = -(u_h - phi)^+, of one sign but for roots not found
+      touching, ///< c = phi - u_h
+      ramp      ///< c = value_begin (t_end - t)/(t_end - t_begin) + value_end (t - t_begin)/(...)
+    } kind;
+    double t_begin;
+    double t_end;
+    double value_begin = 0;
+    double value_end = 0;
+  };
+
+  /// @p field must not exceed phi at the contact nodes, and equal it at the active ones.
+  AdmissibleTrace(const RingSpace& space, const Scene& scene, const FieldVector& field,
+                  const std::vector<bool>& active);
+
+  /// The pieces of an edge, numbered as RingSpace::surface_faces(), in the order of t.
+  const std::vector<Piece>& pieces(unsigned int face) const { return edges[face].pieces; }
+
+  struct Correction {
+    double value; ///< c, a length
+    double slope; ///< dc/dz
+    double gap;   ///< phi - v inside of the zone, zero outside
+  };
+  Correction correction(unsigned int face, const Piece& piece, double t) const;
+
+  /// v(b, z)
+  double displacement(unsigned int face, const Piece& piece, double t) const;
+
+private:
+  struct Edge {
+    double begin;
+    double end;
+    std::vector<double> nodal_values;
+    std::vector<Piece> pieces;
+  };
+
+  double discrete(const Edge& edge, double t) const;
+  double discrete_slope(const Edge& edge, double t) const;
+  double excess(const Edge& edge, double t) const;
+  double excess_slope(const Edge& edge, double t) const; ///< d/dz
+  void find_pieces(Edge& edge, double zone_begin, double zone_end) const;
+
+  std::function<double(double)> road;
+  std::function<double(double)> road_slope;
+  std::vector<dealii::Polynomials::Polynomial<double>> shapes;
+  std::vector<Edge> edges;
+};
+
+/// @p field with its contact nodes moved to the road where they are active or beyond it; the
+/// constraints hold after it.
+FieldVector project_contact_nodes(const RingSpace& space, const ContactProblem& problem,
+                                  const std::vector<bool>& active, FieldVector field);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,72 @@
+#ifndef ROLLWAVE_ERROR_BOUND_ERROR_BOUND_H
+#define ROLLWAVE_ERROR_BOUND_ERROR_BOUND_H
+
+#include "rollwave/error_bound/admissible_displacement.h"
+
+#include <optional>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+struct DualProblem;
+class Work;
+
+/// Section `Certificate`.
+struct CertificateOptions {
+  bool error_bound = true;
+  bool load_bounds = false;
+};
+
+/// What a Certificate guarantees.
+struct CertifiedError {
+  double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
+  double force_data;   ///< its share delta for what the points miss of the force, see ForceIntegral
+  double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
+  double lower_bound;  ///< of J(u)
+  double upper_bound;  ///< of J(u), the energy J(v)
+  double norm_squared; ///< a(v, v)
+};
+
+/**
+ * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
+ * the whole contact zone, and a flux tau in equilibrium with the force and with a contact pressure
+ * lambda >= 0 in the zone,
+ *
+ *     eta^2 = int r [ (tau_z - alpha v_z)^2 / alpha + (tau_r - v_r)^2 ] dr dz
+ *             + 2 b int lambda (phi - v) dz
+ *
+ * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2.
+ *
+ * v is the discrete displacement but for the cells at the surface, where the correction c(z) of
+ * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
+ * a StressFunction with AngularEnrichment psi, in terms of which the first integral is
+ *
+ *     int [ r alpha (psi_s + v_z)^2 + r ((G_h - psi_z)/r - v_r)^2 ] dr dz.
+ *
+ * G_h is that of ForceIntegral, which misses the force by no more than delta in the dual norm, so
+ * that a(v - u, v - u)^(1/2) <= eta + delta by the triangle inequality, and the bounds of J open
+ * accordingly.
+ *
+ * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
+ * road with degree + 6 points. The bound assumes that these resolve phi, and that the points of
+ * ForceIntegral see what a force does.
+ */
+struct Certificate {
+  CertifiedError error;            ///< the bounds
+  std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
+  AdmissibleTrace trace;           ///< v on the surface
+  double work_of_rest;             ///< (f, v - u_h), u_h the displacement certified
+};
+
+/// Certifies the solution @p contact with the displacement @p field.
+/// @param load that of the scene, nullopt without force
+/// @param dual of the same space and scene
+/// @throws NotSolved when an iteration fails
+Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
+                    const ContactSolution& contact, const FieldVector& field,
+                    const std::optional<FieldVector>& load, DualProblem& dual, Work& work);
+
+} // namespace rollwave
+
+#endif

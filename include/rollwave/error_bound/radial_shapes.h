@@ -1,0 +1,68 @@
+#ifndef ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
+#define ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
+
+#include "rollwave/mesh/graded_quadrature.h"
+#include "rollwave/mesh/interval_map.h"
+#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/scene/scene.h"
+
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <vector>
+
+namespace rollwave {
+
+/// Shape functions of one number at one point.
+struct RadialShape {
+  double value;       ///< of a displacement: L_i((r - begin)/(end - begin))
+  double derivative;  ///< d/dr of it
+  double potential;   ///< of a potential
+  double potential_s; ///< d/ds of it
+};
+
+/**
+ * One-dimensional shape functions on the radial interval [begin, end] of a cell at the points of a
+ * quadrature rule, i counting outwards: Lagrange polynomials L_i in r with nodes at Gauss-Lobatto
+ * points for displacements, StressFunctionBasis for potentials.
+ */
+struct RadialShapes {
+  std::vector<double> r;
+  std::vector<double> weight;        ///< of the rule for dr
+  std::vector<double> weight_over_r; ///< of the rule for dr / r
+  std::vector<double> alpha;
+  std::vector<RadialShape> shapes; ///< all numbers at the first point, then at the next
+
+  /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
+  ShapeProducts products;
+
+  /// int w psi_i / r dr, psi_i the potential's shape functions, by the rule, for w at its points.
+  void integrate_over_r(const double* w, std::vector<double>& integrals) const;
+};
+
+/// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
+class RadialShapesOfMesh {
+public:
+  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
+  RadialShapesOfMesh(const Scene& scene, unsigned int degree);
+
+  const RadialShapes& on(double begin, double end);
+
+  /// The same, made before.
+  const RadialShapes& made_on(double begin, double end) const { return known.made(begin, end); }
+
+  /// The rule of an interval, or of each of the pieces that it is cut into.
+  dealii::QGauss<1> gauss(double begin, double end) const;
+
+private:
+  RadialShapes make(double begin, double end) const;
+
+  const Scene scene;
+  std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
+  IntervalMap<RadialShapes> known;
+};
+
+} // namespace rollwave
+
+#endif

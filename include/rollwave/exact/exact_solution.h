@@ -1,0 +1,67 @@
+#ifndef ROLLWAVE_EXACT_EXACT_SOLUTION_H
+#define ROLLWAVE_EXACT_EXACT_SOLUTION_H
+
+#include "rollwave/exact/gegenbauer_pressure.h"
+
+namespace rollwave {
+
+/// The scenes that have a semi-analytic answer: a flat road, a constant force density and a zone of
+/// possible contact |z - 3 pi/2| <= zone_half_width, which may cut the contact short.
+struct ExactScene {
+  double inner_radius;
+  double outer_radius;
+  double angular_velocity;
+  double road_distance;
+  double force_density;
+  double zone_half_width = 1.5707963267948966;
+};
+
+/**
+ * The semi-analytic solution of a contact problem, without any mesh. With x = z - 3 pi/2, the
+ * pressure on |x| < w as a GegenbauerPressure of even terms, and the compliances c_k = 1/sigma_k
+ * of BesselModes,
+ *
+ *     u(b, x)  = u_f(b) - sum_k c_k lambda_k e^(i k x),
+ *     lambda_k = (1/2 pi) int lambda e^(-i k x) dx,
+ *     u_f(r)   = f ( -(r^2 - a^2)/4 + (b^2/2) ln(r/a) ),
+ *
+ * has to equal phi on |x| < w. This is tested by the n functions of the series itself, which gives
+ * a symmetric positive definite system for its coefficients, and by the next one, which gives the
+ * half-width w: a wrong w would need a pressure that is singular at the ends. Where the zone cuts
+ * the contact short, w is the zone's and the pressure is singular, with the exponent -s. Sums over
+ * k run exactly up to some k, then as integrals, then as the mean of their asymptotic form.
+ */
+struct ExactSolution {
+  ExactScene scene;
+  double half_width;   ///< w; 0 without contact
+  double force;        ///< F = b int lambda dz
+  double energy;       ///< J(u)
+  double norm_squared; ///< a(u, u)
+  double peak_pressure;
+
+  /// What is believed to have been reached, relative: numbers are limits of the growing series.
+  double force_accuracy;
+  double energy_accuracy;
+  double half_width_accuracy;
+
+  /// Exponent of the pressure at the ends: 1 - s, or -s where the zone cuts the contact short.
+  double end_exponent;
+
+  /// False near the critical speed, where the ends obey one law outside and another inside of a
+  /// distance that the series does not resolve: F and J are good then, the pressure at the ends is
+  /// not.
+  bool ends_resolved;
+
+  /// lambda(z), of the longest series; identically zero without contact.
+  GegenbauerPressure pressure;
+};
+
+/// @throws NotSolved when the series does not settle.
+ExactSolution solve_exactly(const ExactScene& scene);
+
+/// u_f(r), the displacement under the constant force density f without contact.
+double contact_free_displacement(const ExactScene& scene, double r);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef ROLLWAVE_EXACT_UNIFORM_FORCE_H
+#define ROLLWAVE_EXACT_UNIFORM_FORCE_H
+
+namespace rollwave {
+
+/**
+ * ln(b/a), accurate in thin rings as well.
+ */
+double log_of_ratio(double outer_radius, double inner_radius);
+
+/**
+ * The displacement under the force density 1 without contact, an area,
+ *
+ *     u_1(r) = -(r^2 - a^2)/4 + (b^2/2) ln(r/a),
+ *
+ * in a form in which nothing cancels, however thin the ring is. u_1(b) is also the square of the
+ * constant in Friedrichs' inequality ||w|| <= C |w|, ||w||^2 = int r w^2 dr dz, |w|^2 = a(w, w).
+ */
+double contact_free_unit_displacement(double inner_radius, double outer_radius, double r);
+
+/// int_a^b r u_1(r) dr = int_a^b (b^2 - r^2)^2 / (4 r) dr: the work of that force for each radian,
+/// a length to the fourth.
+double contact_free_unit_work(double inner_radius, double outer_radius);
+
+/// The angle from the lowest point at which a surface of the radius b + @p free meets a flat road
+/// at the distance @p distance, which is less than 2 b + @p free; 0 where it does not.
+double crossing_angle(double outer_radius, double distance, double free);
+
+} // namespace rollwave
+
+#endif

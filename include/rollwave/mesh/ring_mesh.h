@@ -1,0 +1,49 @@
+#ifndef ROLLWAVE_MESH_RING_MESH_H
+#define ROLLWAVE_MESH_RING_MESH_H
+
+#include <deal.II/grid/tria.h>
+
+#include <memory>
+
+namespace rollwave {
+
+struct Scene;
+
+/// The highest degree of elements.
+constexpr unsigned int highest_degree = 8;
+
+/// The first mesh, of section `Mesh`.
+struct MeshOptions {
+  unsigned int degree = 2;
+  unsigned int radial_cells = 16;
+  unsigned int angular_cells = 200;
+  unsigned int global_refinements = 0;
+  unsigned int most_unknowns = 5000000;
+};
+
+/// The unknowns of the first mesh, but for the few that the hub takes away.
+double count_unknowns(const MeshOptions& mesh);
+
+/// @throws BadValue when the first mesh would have more than `Mesh/Most unknowns` unknowns.
+void check_mesh_size(const MeshOptions& mesh);
+
+/**
+ * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` rectangles in (r, z), equal but that
+ * their heights grow geometrically near a small hub, refined `Mesh/Global refinements` times,
+ * periodic over the seam. Where `Road/Contact zone` is given, its ends are vertices, and the cells
+ * within and outside of it differ in length as they must: a zone that ended inside of cells would
+ * cut the contact short at another place on every mesh.
+ *
+ * On several processes each has a part of it. Which class it is of is up to what will be done with
+ * it: p4est's if it @p may_be_refined, a make_strip_mesh() if not.
+ *
+ * @throws BadValue as check_mesh_size(), NotEnoughMemory.
+ */
+std::unique_ptr<dealii::Triangulation<2>> make_ring_mesh(const Scene& scene,
+                                                         const MeshOptions& mesh,
+                                                         bool may_be_refined,
+                                                         MPI_Comm communicator);
+
+} // namespace rollwave
+
+#endif

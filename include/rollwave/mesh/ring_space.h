@@ -1,0 +1,150 @@
+#ifndef ROLLWAVE_MESH_RING_SPACE_H
+#define ROLLWAVE_MESH_RING_SPACE_H
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/mapping_cartesian.h>
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/lac/vector.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace dealii::TrilinosWrappers {
+class SparsityPattern;
+}
+
+namespace rollwave {
+
+struct Scene;
+
+/// A field on the ring: one value for each degree of freedom.
+using FieldVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+/// A node on r = b. Over the seam only one of two coinciding nodes is listed.
+struct SurfaceNode {
+  dealii::types::global_dof_index dof;
+  double angle; ///< z in [m - pi, m + pi), where m is the middle of the contact zone
+
+  /// b times the node's Gauss-Lobatto weight, an area: [p, q]_h = sum_i weight_i p_i q_i is the
+  /// integral of r p q over r = b by Gauss-Lobatto's rule with degree + 1 points, that is the
+  /// trapezoidal rule for degree 1 and Simpson's for degree 2. Nodal force = weight * pressure.
+  double weight;
+};
+
+/// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.
+struct SurfaceFace {
+  double begin; ///< angle, in the range of SurfaceNode::angle
+  double end;
+  std::vector<unsigned int> nodes; ///< numbers among RingSpace::surface_nodes()
+};
+
+/**
+ * Continuous elements of one degree in (r, z): degrees of freedom, constraints (hanging nodes,
+ * period, u = 0 on the hub) and the nodes on the surface. On several processes each has the degrees
+ * of freedom and constraints of its cells and of those next to them, and the surface in full.
+ */
+class RingSpace {
+public:
+  /// @throws BadInput when no node of the mesh lies in the contact zone.
+  RingSpace(const dealii::Triangulation<2>& triangulation, const Scene& scene, unsigned int degree);
+
+  ~RingSpace();
+
+  const dealii::DoFHandler<2>& dof_handler() const { return handler; }
+  const dealii::AffineConstraints<double>& constraints() const { return affine_constraints; }
+
+  /// Cells are rectangles in (r, z).
+  const dealii::MappingCartesian<2>& mapping() const { return cartesian; }
+
+  /// b, a length.
+  double outer_radius() const { return radius; }
+
+  /// The processes that share the space.
+  MPI_Comm communicator() const { return handler.get_communicator(); }
+
+  /// Unknowns: degrees of freedom without those that constraints tie to others.
+  unsigned int n_unknowns() const { return unknowns; }
+
+  /// The least and the largest diameter of a cell, (h_r^2 + b^2 h_z^2)^(1/2).
+  std::pair<double, double> diameters() const { return least_and_largest_diameter; }
+
+  /// The cells at the surface or the seam that a process has or that are next to its own.
+  const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& outer_cells() const {
+    return at_surface_or_seam;
+  }
+
+  /// All nodes on r = b by increasing angle.
+  const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
+
+  /// All edges on r = b by increasing angle of the mesh, beginning at the seam.
+  const std::vector<SurfaceFace>& surface_faces() const { return faces; }
+
+  /// The number among surface_faces() of the edge of a cell on r = b, if it has one.
+  std::optional<unsigned int>
+  surface_face(const dealii::Triangulation<2>::active_cell_iterator& cell) const;
+
+  /// The nodes in [z0, z1], a stretch of surface_nodes().
+  const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
+
+  /// The number among contact_nodes() of a node of surface_nodes(), if it is one.
+  std::optional<unsigned int> contact_number(unsigned int surface_node) const {
+    if (surface_node < first_contact || surface_node >= first_contact + contact.size())
+      return {};
+    return surface_node - first_contact;
+  }
+
+  /// The values of a field at the surface nodes, and at the contact nodes, on every process.
+  std::vector<double> surface_values(const FieldVector& field) const;
+  dealii::Vector<double> contact_values(const FieldVector& field) const;
+
+  /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
+  /// space sparse, whatever their constraints: dissect(), when first asked for. For
+  /// one process.
+  const std::vector<dealii::types::global_dof_index>& elimination_order() const;
+
+  /// make_matrix_pattern() for all processes, once MPI has been started, until it is asked for
+  /// again. Without hanging nodes all matrices share one.
+  /// @param constraints without hanging nodes those of constraints(), or others on hub and surface
+  const dealii::TrilinosWrappers::SparsityPattern&
+  matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
+
+  /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
+  /// next to them, and what constraints tie these to.
+  const dealii::IndexSet& relevant_dofs() const { return relevant; }
+
+  /// A zero field.
+  FieldVector make_field() const { return FieldVector(partitioner); }
+
+private:
+  void find_surface_nodes(const Scene& scene);
+  void look_over_cells();
+  std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
+                                const FieldVector& field) const;
+
+  double radius;
+  dealii::FE_Q<2> element;
+  dealii::MappingCartesian<2> cartesian;
+  dealii::DoFHandler<2> handler;
+  dealii::AffineConstraints<double> affine_constraints;
+  dealii::IndexSet relevant;
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
+  unsigned int unknowns;
+  std::pair<double, double> least_and_largest_diameter;
+  std::vector<dealii::DoFHandler<2>::active_cell_iterator> at_surface_or_seam;
+  std::vector<SurfaceNode> surface;
+  std::vector<SurfaceNode> contact;
+  unsigned int first_contact = 0; ///< number of its first node in surface
+  std::vector<SurfaceFace> faces;
+  std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
+  mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
+  mutable std::unique_ptr<const dealii::TrilinosWrappers::SparsityPattern> pattern; ///< likewise
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef ROLLWAVE_PARAMETERS_COMMAND_LINE_H
+#define ROLLWAVE_PARAMETERS_COMMAND_LINE_H
+
+#include "rollwave/parameters/prm_reader.h"
+
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// What the user asked for.
+struct CommandLine {
+  enum class Action { run, help, version, parameters };
+  Action action = Action::run;
+  std::filesystem::path file;    ///< the parameter file to run
+  bool verify = false;           ///< compare with the exact solution
+  std::vector<Setting> settings; ///< of --set and --output, in their order
+};
+
+/// @throws BadInput for arguments that are not understood.
+CommandLine read_command_line(const std::vector<std::string>& arguments);
+
+/// The settings of the file, if there is one, and those of the command line after them.
+/// @throws BadInput as read_settings() does.
+std::vector<Setting> settings_of(const CommandLine& line);
+
+/// How to call the program.
+std::string usage();
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,72 @@
+#ifndef ROLLWAVE_PARAMETERS_PARAMETERS_H
+#define ROLLWAVE_PARAMETERS_PARAMETERS_H
+
+#include "rollwave/base/errors.h"
+#include "rollwave/parameters/prm_reader.h"
+#include "rollwave/run/run_options.h"
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rollwave {
+
+enum class OutputFile { summary, contact, parameters, solution, plot };
+
+/**
+ * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
+ * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
+ */
+struct Parameters : RunOptions {
+  /// A scene of a study by its name, with the settings that make it.
+  struct NamedScene {
+    std::string name;
+    std::vector<Setting> settings;
+  };
+
+  struct {
+    std::vector<NamedScene> scenes; ///< none: the scene of the file
+
+    /// One list of settings for each varied key; the study runs every combination.
+    std::vector<std::vector<Setting>> vary;
+    std::vector<std::optional<unsigned int>> published_steps;
+    bool true_errors = false;
+    unsigned int processes_per_scene = 0; ///< 0: all of them
+  } study;
+
+  struct {
+    std::string directory = "output";
+    std::vector<OutputFile> files;
+  } output;
+
+  /// What was set, in order of increasing precedence; later entries override earlier ones.
+  std::vector<Setting> settings;
+
+  bool wants(OutputFile file) const;
+};
+
+/**
+ * The parameters that @p settings describe; keys not mentioned keep their defaults.
+ *
+ * @throws BadInput for an unknown section or key (naming the nearest known ones), or a value that
+ *         its key does not admit. What depends on several keys is checked by make_scene().
+ */
+Parameters read_parameters(const std::vector<Setting>& settings);
+
+/// The message for a value that is not admitted: where it was set, section, key, value and what is
+/// wanted instead.
+std::string refusal(const std::vector<Setting>& settings, const std::string& section,
+                    const std::string& key, const std::string& wanted);
+
+/// The same for a value that a lower floor has refused.
+std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
+
+/// A complete commented parameter file: defaults, overridden by @p settings.
+/// @throws BadInput as read_parameters().
+void print_parameters(std::ostream& out, const std::vector<Setting>& settings);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,131 @@
+#ifndef ROLLWAVE_RUN_RESULT_H
+#define ROLLWAVE_RUN_RESULT_H
+
+#include "rollwave/base/work.h"
+#include "rollwave/contact/contact_patch.h"
+#include "rollwave/error_bound/error_bound.h"
+
+#include <optional>
+#include <vector>
+
+namespace rollwave {
+
+struct MeshFigures {
+  unsigned int degree;
+  unsigned int cells;
+  unsigned int dofs; ///< unknowns: hub, seam and hanging nodes are not counted
+  unsigned int contact_nodes;
+  double h_min; ///< smallest cell diameter in (r, b z), a length
+  double h_max; ///< largest cell diameter in (r, b z), a length
+};
+
+struct Energy {
+  double value;        ///< J(u_h)
+  double norm_squared; ///< a(u_h, u_h)
+};
+
+/// Guaranteed bounds of the work-conjugate load G, see bound_load().
+struct LoadBounds {
+  double lower;
+  double upper;
+};
+
+/// One mesh of an adaptive run.
+struct CycleFigures {
+  unsigned int cells;
+  unsigned int dofs;
+  unsigned int contact_steps;
+  double indicated;                ///< sqrt(sum eta_K^2) of the indicator; 0 on the last mesh
+  std::optional<double> certified; ///< CertifiedError::relative where it was computed
+};
+
+/// How well the optimality conditions hold, each relative to its own data; all zero is perfect.
+struct Residuals {
+  double equilibrium;       ///< |f - K u - N|_2 / max(|f|_2, |N|_2)
+  double penetration;       ///< max (u_i - phi_i)^+ / max |u_i| on contact nodes
+  double negative_pressure; ///< max (-lambda_i)^+ / max |lambda_i|
+  double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
+
+  /// What equilibrium comes to when u is rounded, of which no solver can do better: |K (d u)|_2
+  /// over the same forces, d being a rounding error of random sign for each unknown.
+  double round_off;
+
+  /// The largest of the four.
+  double largest() const;
+};
+
+/// Errors against the exact solution.
+struct TrueErrors {
+  double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
+  double relative_energy_norm; ///< over that of u
+  bool is_resolved;            ///< whether the exact solution is accurate enough to tell it
+  double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
+  double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
+  double force;                ///< |F - F_h|
+  double energy;               ///< |J(u) - J(u_h)|
+  double half_width;           ///< |w - w_h|
+
+  /// sqrt(a(u - v, u - v)) of the feasible displacement v that the certificate speaks of, and the
+  /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate, and
+  /// J(v) - J(u) is not lost in the accuracy of J(u).
+  std::optional<double> admissible_energy_norm;
+  std::optional<double> effectivity;
+
+  /// The order of the energy norm in h ~ unknowns^(-1/2) that theory expects. On uniform meshes:
+  /// 1/2 where the zone cuts the contact short, otherwise the lesser of the degree and 3/2; on
+  /// adaptive ones the degree.
+  double expected_order;
+};
+
+/// The numbers of one contact node; gap = phi - u.
+struct ContactRow {
+  double angle;
+  double displacement;
+  double road;
+  double gap;
+  double pressure;
+  double weight; ///< area for a unit of the axle's length: pressures times it add up to the force
+};
+
+/// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing
+/// angle, zero beyond them.
+double pressure_at(const std::vector<ContactRow>& rows, double z);
+
+/// A point of the deformed surface r = b.
+struct SurfacePoint {
+  double angle;
+  double displacement;
+};
+
+/// All numbers of one solved scene, lengths in the unit of the scene.
+struct Result {
+  MeshFigures mesh;
+  ContactPatch patch;
+  Energy energy;
+  Residuals residuals;
+  std::optional<CertifiedError> certified;
+  std::optional<LoadBounds> load_bounds;
+  std::optional<TrueErrors> errors; ///< where a comparison was asked for
+  std::vector<CycleFigures> cycles; ///< one for each mesh
+  std::vector<ContactStep> history; ///< on the last mesh
+  double rho;                       ///< Uzawa's step length; 0 for the active set method
+  std::vector<std::string> remarks; ///< what a reader of the figures should know
+  /// What was wanted and not reached, with the keys to change.
+  std::vector<std::string> shortfalls;
+  bool is_interrupted = false; ///< by the user: the shortfalls say after what
+  std::vector<ContactRow> contact_rows;
+  std::vector<SurfacePoint> surface;
+  Work work;
+  double peak_memory_mib = 0; ///< the largest of all processes
+};
+
+/// The shortfalls with "; " between them.
+std::string shortfall_text(const Result& result);
+
+/// The same with lengths in the user's lengths, of which @p unit is Scene::unit: what is a length
+/// is multiplied by it, energies by its square.
+Result to_lengths(Result result, double unit);
+
+} // namespace rollwave
+
+#endif

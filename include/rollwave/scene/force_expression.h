@@ -1,0 +1,21 @@
+#ifndef ROLLWAVE_SCENE_FORCE_EXPRESSION_H
+#define ROLLWAVE_SCENE_FORCE_EXPRESSION_H
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace rollwave {
+
+/// The force where @p expression is a number.
+std::optional<double> constant_force(const std::string& expression);
+
+/// The function of r and z that @p expression stands for, by muParser.
+/// @param any_radius at which it is tried
+/// @throws BadValue where it cannot be parsed, means something else than it says, or is not finite
+std::function<double(double r, double z)> parse_force(const std::string& expression,
+                                                      double any_radius);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,108 @@
+#ifndef ROLLWAVE_SCENE_SCENE_H
+#define ROLLWAVE_SCENE_SCENE_H
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace rollwave {
+
+/// Section `Cylinder`; lengths share a unit of the user's choice.
+struct CylinderOptions {
+  double inner_radius = 0.5;
+  double outer_radius = 1;
+  double angular_velocity = 0.5;
+  std::string radial_force = "0";
+};
+
+/// Section `Road`.
+struct RoadOptions {
+  double distance = 0.8;
+  std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
+};
+
+/**
+ * An elastic ring rolling steadily over a road, after D. Ross and M. Bercovier, "Traveling waves in
+ * a cylinder rolling on a flat surface", M2AN 25 (1991) 129-149.
+ *
+ * The unknown is the radial displacement u(r, z) on Omega = (a, b) x [0, 2 pi), periodic in the
+ * angle z, which rests with the axle. With alpha(r) = 1/r^2 - omega^2 it obeys
+ *
+ *     -alpha u_zz - (1/r) (r u_r)_r = f            in Omega
+ *     u = 0                                        on r = a
+ *     u_r = 0                                      on r = b off the contact zone
+ *     u <= phi,  u_r <= 0,  (u - phi) u_r = 0      on r = b in the contact zone [z0, z1]
+ *
+ * and is the minimiser of J(v) = a(v, v)/2 - (f, v) over the v <= phi on the contact zone with
+ * v = 0 on r = a, where, r dr dz being the area element in polar coordinates,
+ *
+ *     a(u, v) = int r (alpha u_z v_z + u_r v_r) dr dz,    (f, v) = int r f v dr dz.
+ *
+ * The contact pressure is lambda = -u_r(b, z) >= 0. The bilinear form is elliptic for omega < 1/b;
+ * at omega = 1/b alpha vanishes on r = b and the problem is degenerate there.
+ *
+ * Lengths are in a unit of the scene's own, a power of two, so that b is near 1 in it however long
+ * the user's lengths are: nothing overflows, and a scene scaled by a power of two has the same
+ * numbers to the last bit. What is computed from a scene is in its unit; to_lengths() leads back.
+ */
+struct Scene {
+  double inner_radius;     ///< a, a length
+  double outer_radius;     ///< b, a length
+  double angular_velocity; ///< omega, one over a length (the wave speed is 1)
+
+  /// f(r, z), a force density, z in [0, 2 pi); empty when there is none.
+  std::function<double(double r, double z)> force;
+
+  /// phi(z): the displacement at which the surface touches the road, a length.
+  std::function<double(double z)> road;
+
+  /// dphi/dz
+  std::function<double(double z)> road_slope;
+
+  double zone_begin; ///< z0, an angle; the zone may begin at any angle
+  double zone_end;   ///< z1 in (z0, z0 + 2 pi)
+
+  /// Angles that are closer are the same: those of a mesh carry round-off of a few units in the
+  /// last place.
+  static constexpr double angular_round_off = 1e-13;
+
+  bool is_in_zone(double z) const {
+    return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
+  }
+
+  std::string force_text = {}; ///< the expression of f as the user gave it
+
+  /// f where it is a constant that is known, so that its integrals need no quadrature.
+  std::optional<double> uniform_force = {};
+
+  /// Whether f is no number.
+  bool has_uneven_force() const { return force && !uniform_force; }
+
+  double unit = 1; ///< the unit of length, in the user's lengths
+
+  double road_distance = 0;    ///< c of a flat road, a length
+  bool has_given_zone = false; ///< whether the user has given the zone
+
+  /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
+  double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
+};
+
+/// What is wrong with a force that is not finite at a point, r in the scene's unit.
+std::string force_not_finite_at(const Scene& scene, double r, double z);
+
+/**
+ * The scene that options describe.
+ *
+ * Its unit of length is the power of two with b in [1, 2).
+ *
+ * @param angular_cells those of the first mesh: an automatic zone is two cells wider than contact
+ * @throws BadValue unless 0 < a < b, 0 <= omega <= 1/b, a < c, c < 2 b with an automatic zone,
+ *         pi < z0 < z1 < 2 pi and the force can be parsed and is finite.
+ */
+Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
+                 unsigned int angular_cells);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,71 @@
+#ifndef ROLLWAVE_SOLVER_CHOLMOD_FACTOR_H
+#define ROLLWAVE_SOLVER_CHOLMOD_FACTOR_H
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace rollwave {
+
+/// Entries of the lower triangle of a symmetric matrix in any order; equal places are summed.
+struct LowerTriplets {
+  std::vector<int> rows;
+  std::vector<int> columns;
+  std::vector<double> values;
+
+  void add(int row, int column, double value) {
+    rows.push_back(row);
+    columns.push_back(column);
+    values.push_back(value);
+  }
+};
+
+/**
+ * The factorisation K = L L^T of a sparse symmetric positive definite matrix K of n rows by
+ * CHOLMOD's supernodal method (Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, ACM Trans.
+ * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. Of the last m
+ * unknowns it gives the Schur complement S too:
+ *
+ *         ( L_ii       )
+ *     L = (            ),     S = L_cc L_cc^T = K_cc - K_ci K_ii^-1 K_ic.
+ *         ( L_ci  L_cc )
+ */
+class CholmodFactor {
+public:
+  explicit CholmodFactor(int n);
+  ~CholmodFactor();
+
+  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, analyses it.
+  /// @return whether it did. @throws NotSolved when memory is short.
+  bool set_matrix(const LowerTriplets& triplets);
+
+  /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
+  void factorise();
+
+  int size() const { return n; }
+
+  /// K x
+  std::vector<double> multiply(std::vector<double> x) const;
+
+  /// L^-1 b
+  std::vector<double> forward(std::vector<double> b);
+
+  /// L^-T y
+  std::vector<double> backward(std::vector<double> y);
+
+  /// L_cc, m x m, with zeros above the diagonal.
+  dealii::FullMatrix<double> trailing_factor(int m) const;
+
+  /// Entries of L, zeros within supernodes included.
+  double n_factor_entries() const;
+
+private:
+  struct Cholmod;
+  std::unique_ptr<Cholmod> cholmod;
+  int n;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
+#define ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
+
+#include "rollwave/base/work.h"
+#include "rollwave/solver/contact_linear_solver.h"
+#include "rollwave/solver/solver_options.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rollwave {
+
+struct Scene;
+
+/// A solver and, where its kind is not the one that the user may expect, the reason.
+struct SolverChoice {
+  std::unique_ptr<ContactLinearSolver> solver;
+  std::string remark;
+  SolverKind kind = SolverKind::direct; ///< never automatic
+};
+
+/// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or,
+/// where memory is too short for its factor and on several processes, the iterative one. @p load
+/// and @p work are as for ContactLinearSolver::turn_to().
+/// @throws NotSolved as the kinds do.
+SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
+                           const std::optional<FieldVector>& load, Work& work);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,64 @@
+#ifndef ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
+#define ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
+
+#include "rollwave/mesh/ring_space.h"
+
+#include <deal.II/lac/vector.h>
+
+#include <optional>
+#include <vector>
+
+namespace rollwave {
+
+struct Scene;
+class Work;
+
+/// The state of the contact nodes, in the order of RingSpace::contact_nodes().
+struct ContactState {
+  dealii::Vector<double> displacement; ///< u_i, a length
+
+  /// N_i = f_i - (K u)_i, a force: positive where the road presses. Over the node's weight it is
+  /// the contact pressure.
+  dealii::Vector<double> force;
+};
+
+/**
+ * The linear problem on one mesh, as contact iterations see it:
+ *
+ *     K u = f - N,   N = 0 but on contact nodes, where either u_i (pinned) or N_i is given.
+ *
+ * The contact nodes are few, and known to every process in full; whatever else the solution needs
+ * belongs to the kind of solver.
+ */
+class ContactLinearSolver {
+public:
+  virtual ~ContactLinearSolver() = default;
+
+  /// Turns to a scene, which may differ from the one before in its speed, force and road: only what
+  /// depends on what has changed is computed again. @p load is the vector of assemble_load(),
+  /// nullopt when it is zero; it and @p work must live until the next call or the last use.
+  /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
+  virtual void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) = 0;
+
+  /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
+  /// and u_i on the others. All arrays have one entry for each contact node.
+  /// @param accuracy the relative residual |f - N - K u|_2 / max(|f|_2, |N|_2) that suffices
+  /// @return the relative residual reached; 0 where the solution is exact but for round-off
+  /// @throws NotSolved when the accuracy is out of reach.
+  virtual double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) = 0;
+
+  /// The displacement C N of the contact nodes towards the hub when nodal forces N push on them and
+  /// nothing else does: C is the compliance, the inverse of the Schur complement of these nodes.
+  /// @p accuracy is as for solve().
+  virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
+
+  /// The field u of a state that solve() has left, constraints included.
+  virtual FieldVector displacement_field(const ContactState& state) = 0;
+
+  /// K u for a field that obeys the constraints; zero where a constraint holds.
+  virtual FieldVector apply(const FieldVector& field) const = 0;
+};
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,36 @@
+#ifndef ROLLWAVE_SOLVER_SPD_SOLVER_H
+#define ROLLWAVE_SOLVER_SPD_SOLVER_H
+
+#include "rollwave/base/work.h"
+#include "rollwave/mesh/assembly.h"
+#include "rollwave/solver/solver_options.h"
+
+#include <memory>
+
+namespace rollwave {
+
+struct Scene;
+
+/// Linear problems with one symmetric positive definite matrix on a space, for the degrees of
+/// freedom that constraints leave.
+class SpdSolver {
+public:
+  virtual ~SpdSolver() = default;
+
+  /// Takes the matrix of a form by its radial integrals, those of stiffness_products() or of the
+  /// dual form, in which couplings are as strong. Later calls must have the same @p constraints but
+  /// for their inhomogeneities.
+  /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
+  virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+                          const RadialProducts& radial, Work& work) = 0;
+
+  /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
+  virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
+};
+
+/// Of the @p kind direct or iterative.
+std::unique_ptr<SpdSolver> make_spd_solver(SolverKind kind, const RingSpace& space);
+
+} // namespace rollwave
+
+#endif

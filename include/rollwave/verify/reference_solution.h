@@ -1,0 +1,17 @@
+#ifndef ROLLWAVE_VERIFY_REFERENCE_SOLUTION_H
+#define ROLLWAVE_VERIFY_REFERENCE_SOLUTION_H
+
+#include "rollwave/exact/exact_solution.h"
+#include "rollwave/scene/scene.h"
+
+#include <optional>
+
+namespace rollwave {
+
+/// The exact solution of a scene; nullopt where there is none: a force that is not constant, a zone
+/// that cuts the contact short on one side or unevenly, or a series that does not settle.
+std::optional<ExactSolution> find_exact_solution(const Scene& scene);
+
+} // namespace rollwave
+
+#endif

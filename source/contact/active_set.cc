@@ -1,0 +1,122 @@
+#include "rollwave/contact/active_set.h"
+
+#include "rollwave/base/errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// Signs are judged beyond these multiples of the largest displacement and pressure: what exact
+/// arithmetic would make zero comes out as round-off of this size.
+constexpr double round_off = 1e-14;
+
+/// The same where the equations hold up to a residual. The displacement is as accurate as they are;
+/// the pressure, a residual over a weight, is less so where cells are small.
+constexpr double displacement_error = 1, pressure_error = 10; // over the residual
+
+unsigned int count_changes(const std::vector<bool>& active, const std::vector<bool>& next) {
+  unsigned int count = 0;
+  for (unsigned int i = 0; i < active.size(); ++i)
+    count += active[i] != next[i];
+  return count;
+}
+
+ContactStep judge(const ContactProblem& problem, const ContactSolution& solution, double residual,
+                  std::vector<bool>& next) {
+  const auto& [displacement, force] = solution.state;
+  double highest_pressure = 0;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    highest_pressure = std::max(highest_pressure, std::abs(force(i)) / problem.weight(i));
+  const double least_pressure = -std::max(round_off, pressure_error * residual) * highest_pressure;
+  const double most_penetration =
+      std::max(round_off, displacement_error * residual) * displacement.linfty_norm();
+
+  ContactStep step = {};
+  next = solution.active;
+  for (unsigned int i = 0; i < problem.size(); ++i) {
+    const double penetration = displacement(i) - problem.road(i);
+    const double pressure = force(i) / problem.weight(i);
+    if (solution.active[i]) {
+      ++step.active;
+      step.lowest_pressure = std::min(step.lowest_pressure, pressure);
+      next[i] = pressure >= least_pressure;
+    } else {
+      step.penetration = std::max(step.penetration, penetration);
+      next[i] = penetration > most_penetration;
+    }
+  }
+  step.changed = count_changes(solution.active, next);
+  return step;
+}
+
+/// Undoes all changes from @p active to @p next but the first.
+void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next) {
+  const auto first = std::mismatch(active.begin(), active.end(), next.begin()).first;
+  std::copy(first + 1, active.end(), next.begin() + (first + 1 - active.begin()));
+}
+
+} // namespace
+
+ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,
+                           unsigned int most_steps, const Vector<double>& start) {
+  ContactSolution solution;
+  solution.active.assign(problem.size(), false);
+  for (unsigned int i = 0; i < start.size(); ++i)
+    solution.active[i] = start(i) > 0;
+  solution.state.displacement.reinit(problem.size());
+  solution.state.force.reinit(problem.size());
+
+  bool changes_one_by_one = false;
+  std::set<std::vector<bool>> visited;
+  double accuracy = loose_accuracy;
+  for (;;) {
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      if (solution.active[i])
+        solution.state.displacement(i) = problem.road(i);
+      else
+        solution.state.force(i) = 0;
+    double residual = solver.solve(solution.active, solution.state, accuracy);
+
+    std::vector<bool> next;
+    solution.history.push_back(judge(problem, solution, residual, next));
+    ContactStep& step = solution.history.back();
+    const bool is_loose = accuracy > final_accuracy && residual > final_accuracy;
+    if (step.changed == 0 && is_loose) {
+      accuracy = final_accuracy;
+      residual = solver.solve(solution.active, solution.state, accuracy);
+      step = judge(problem, solution, residual, next);
+    }
+    if (step.changed == 0)
+      return solution;
+    if (solution.history.size() >= most_steps)
+      throw NotSolved("the active set method has not ended after " + std::to_string(most_steps) +
+                      " steps: " + std::to_string(step.changed) +
+                      " nodes still change; raise Contact/Most steps");
+
+    if (!changes_one_by_one && !visited.insert(solution.active).second) {
+      if (is_loose) {
+        // The signs of a loose solve have led here; those of an accurate one may lead on.
+        accuracy = final_accuracy;
+        visited.clear();
+        solution.history.pop_back();
+        continue;
+      }
+      changes_one_by_one = true;
+      solution.remark = "the active set repeated itself; from then on one node changed at a time";
+    }
+    if (changes_one_by_one)
+      keep_first_change(solution.active, next);
+    step.changed = count_changes(solution.active, next);
+    step.residual = static_cast<double>(step.changed) / problem.size();
+    solution.active = std::move(next);
+  }
+}
+
+} // namespace rollwave

@@ -1,0 +1,31 @@
+#include "rollwave/contact/contact_problem.h"
+
+#include "rollwave/contact/active_set.h"
+#include "rollwave/contact/uzawa.h"
+#include "rollwave/scene/scene.h"
+
+namespace rollwave {
+
+ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) {
+  const auto& nodes = space.contact_nodes();
+  ContactProblem problem;
+  problem.road.reinit(nodes.size());
+  problem.weight.reinit(nodes.size());
+  problem.unit = scene.unit;
+  problem.communicator = space.communicator();
+  for (unsigned int i = 0; i < nodes.size(); ++i) {
+    problem.road(i) = scene.road(nodes[i].angle);
+    problem.weight(i) = nodes[i].weight;
+  }
+  return problem;
+}
+
+ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
+                              const ContactOptions& options, const dealii::Vector<double>& start) {
+  if (options.method == ContactMethod::uzawa)
+    return uzawa(solver, problem,
+                 {options.rho, options.stop, options.tolerance, options.most_steps}, start);
+  return active_set(solver, problem, options.most_steps, start);
+}
+
+} // namespace rollwave

@@ -1,0 +1,164 @@
+#include "rollwave/contact/uzawa.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
+#include "rollwave/contact/active_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// Two bounds of rho: below the first the method converges from anywhere; above the second the
+/// solution itself repels, so that it cannot converge.
+struct RhoBounds {
+  double safe;
+  double largest;
+};
+
+RhoBounds rho_bounds(ContactLinearSolver& solver, const ContactProblem& problem,
+                     const UzawaSettings& settings) {
+  const ContactSolution exact = active_set(solver, problem, settings.most_steps);
+  return {2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
+          2 / largest_compliance(solver, problem, exact.active)};
+}
+
+std::string interruption_text(const UzawaSettings& settings,
+                              const std::vector<ContactStep>& history) {
+  std::ostringstream text;
+  text << "interrupted after " << history.size() << (history.size() == 1 ? " step" : " steps")
+       << " of Uzawa's method: the residual is " << history.back().residual << ", wanted "
+       << settings.tolerance;
+  return text.str();
+}
+
+[[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
+                          const UzawaSettings& settings, double rho, std::size_t steps,
+                          double reached) {
+  const RhoBounds bounds = rho_bounds(solver, problem, settings);
+  std::ostringstream message;
+  message << "Uzawa's method " << (rho < bounds.safe ? "stagnates" : "diverges")
+          << " with rho = " << rho / problem.unit << ": in " << steps
+          << " steps its residual fell to " << reached << ", wanted " << settings.tolerance << "; ";
+  if (rho < bounds.safe)
+    message << "raise Contact/Tolerance above round-off";
+  else
+    message << "lower Contact/Rho: the largest rho that can converge is "
+            << bounds.largest / problem.unit << ", and every rho below "
+            << bounds.safe / problem.unit << " does";
+  throw NotSolved(message.str());
+}
+
+} // namespace
+
+double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
+                          const std::vector<bool>& nodes) {
+  // The dominant mode is a push of one sign everywhere.
+  Vector<double> pressure(problem.size());
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    pressure(i) = nodes[i] ? 1. : 0.;
+
+  double compliance = 0;
+  for (unsigned int iteration = 0; iteration < 100; ++iteration) {
+    Vector<double> force = pressure;
+    force.scale(problem.weight);
+    // The quotient below errs by the square of this.
+    const Vector<double> response = solver.response(force, 1e-6);
+    double work = 0, norm_squared = 0, largest = 0;
+    for (unsigned int i = 0; i < problem.size(); ++i) {
+      work += force(i) * response(i);
+      norm_squared += force(i) * pressure(i);
+      pressure(i) = nodes[i] ? response(i) : 0.;
+      largest = std::max(largest, std::abs(pressure(i)));
+    }
+    const double previous = compliance;
+    compliance = work / norm_squared;
+    pressure /= largest;
+    if (compliance - previous < 1e-7 * compliance)
+      break;
+  }
+  return compliance;
+}
+
+ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
+                      const UzawaSettings& settings, const Vector<double>& start) {
+  const unsigned int n = problem.size();
+  const std::vector<bool> none(n, false);
+  const double rho = settings.rho
+                         ? *settings.rho * problem.unit
+                         : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
+
+  ContactSolution solution;
+  solution.rho = rho;
+  solution.active.assign(n, false);
+  auto& [displacement, force] = solution.state;
+  displacement.reinit(n);
+  force.reinit(n);
+  Vector<double> p(n);
+  for (unsigned int i = 0; i < start.size(); ++i) {
+    p(i) = -start(i);
+    force(i) = problem.weight(i) * start(i);
+    solution.active[i] = start(i) > 0;
+  }
+  double accuracy = loose_accuracy;
+  double residual = solver.solve(none, solution.state, accuracy);
+
+  double smallest = std::numeric_limits<double>::max();
+  unsigned int steps_without_progress = 0;
+  while (solution.history.size() < settings.most_steps) {
+    ContactStep step = {};
+    double violation_squared = 0;
+    for (unsigned int i = 0; i < n; ++i) {
+      const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
+      violation_squared += std::pow((next - p(i)) / rho, 2);
+      p(i) = next;
+      force(i) = -problem.weight(i) * next;
+      step.active += next < 0;
+      step.changed += solution.active[i] != (next < 0);
+      solution.active[i] = next < 0;
+      step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
+    }
+    Vector<double> change = displacement;
+    if (violation_squared > 0)
+      residual = solver.solve(none, solution.state, accuracy);
+    change -= displacement;
+
+    const double size = displacement.l2_norm();
+    const double violation = std::sqrt(violation_squared);
+    const double measured = settings.stop == UzawaStop::gap ? violation : change.l2_norm();
+    step.residual = size > 0 ? measured / size : measured;
+    solution.history.push_back(step);
+    // A scene without contact is solved when the first projection leaves p at zero.
+    const bool is_converged = measured <= settings.tolerance * size;
+    if (!is_converged && is_interrupted(problem.communicator))
+      solution.shortfall = interruption_text(settings, solution.history);
+    if (is_converged || solution.shortfall) {
+      if (residual > final_accuracy)
+        solver.solve(none, solution.state, final_accuracy);
+      return solution;
+    }
+    // The linear problems may be solved as loosely as leaves the next step unharmed.
+    accuracy = std::min(step.residual / 100, loose_accuracy);
+
+    // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
+    if (step.residual < smallest) {
+      smallest = step.residual;
+      steps_without_progress = 0;
+    } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
+      give_up(solver, problem, settings, rho, solution.history.size(), smallest);
+  }
+  std::ostringstream message;
+  message << "Uzawa's method has not reached the tolerance " << settings.tolerance << " after "
+          << settings.most_steps << " steps with rho = " << rho / problem.unit
+          << ": the residual is " << solution.history.back().residual
+          << "; raise Contact/Most steps" << (settings.rho ? ", or let Contact/Rho be auto" : "");
+  throw NotSolved(message.str());
+}
+
+} // namespace rollwave

@@ -1,0 +1,222 @@
+#include "rollwave/exact/bessel_modes.h"
+
+#include "rollwave/exact/uniform_force.h"
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <boost/math/special_functions/legendre.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace rollwave {
+
+namespace {
+
+constexpr int n_gauss = 48;
+
+/// The hub has no effect on the surface beyond this exponent: exp(-2 * 21) < 1e-18.
+constexpr double negligible_exponent = 21;
+
+/// Panels of interpolation over k.
+constexpr double first_panel = 64;
+constexpr int n_panels = 16;
+constexpr int n_chebyshev = 24;
+
+double chebyshev_point(int i) {
+  return std::cos(dealii::numbers::PI * i / (n_chebyshev - 1));
+}
+
+/// x J_k'(x) / J_k(x) for 0 <= x <= k, by the continued fraction of J_(k+1)/J_k (W. J. Lentz).
+double logarithmic_derivative(double k, double x) {
+  const double x_squared = x * x;
+  double fraction = 2 * (k + 1), c = fraction, d = 0;
+  for (int n = 2; n < 100000; ++n) {
+    const double b = 2 * (k + n);
+    d = 1 / (b - x_squared * d);
+    c = b - x_squared / c;
+    fraction *= c * d;
+    if (std::abs(c * d - 1) < std::numeric_limits<double>::epsilon())
+      break;
+  }
+  return k - x_squared / fraction;
+}
+
+/// Gauss-Legendre points on [-1, 1] and the matrix of integrals from each point to 1.
+struct SpectralIntegration {
+  std::array<double, n_gauss> point;
+  std::array<double, n_gauss> weight;
+  std::array<std::array<double, n_gauss>, n_gauss> to_the_right;
+
+  SpectralIntegration() {
+    const dealii::QGauss<1> gauss(n_gauss);
+    for (int i = 0; i < n_gauss; ++i) {
+      point[i] = 2 * gauss.point(i)[0] - 1;
+      weight[i] = 2 * gauss.weight(i);
+    }
+    // The Lagrange polynomial of point j is weight_j sum_m (m + 1/2) P_m(x_j) P_m, and
+    // (2 m + 1) int_x^1 P_m = P_(m-1)(x) - P_(m+1)(x), with P_(-1) = 1.
+    const auto legendre = [](int m, double x) {
+      return m < 0 ? 1. : boost::math::legendre_p(m, x);
+    };
+    for (int i = 0; i < n_gauss; ++i)
+      for (int j = 0; j < n_gauss; ++j) {
+        double sum = 0;
+        for (int m = 0; m < n_gauss; ++m)
+          sum += legendre(m, point[j]) * (legendre(m - 1, point[i]) - legendre(m + 1, point[i]));
+        to_the_right[i][j] = weight[j] * sum / 2;
+      }
+  }
+};
+
+const SpectralIntegration& spectral_integration() {
+  static const SpectralIntegration rule;
+  return rule;
+}
+
+} // namespace
+
+/// theta and its integral at the points, and the integral of 1/g^2.
+struct BesselModes::Samples {
+  std::array<double, n_gauss> exponent; ///< int_y^(ln b) theta
+  double theta_at_surface;
+  double largest_exponent; ///< from the hub to the surface
+  double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
+};
+
+BesselModes::BesselModes(double inner_radius, double outer_radius, double angular_velocity)
+    : a(inner_radius), b(outer_radius), omega(std::min(angular_velocity, 1 / outer_radius)) {
+  hub_fades_at = 1;
+  while (hub_matters(hub_fades_at))
+    hub_fades_at *= 2;
+  for (int panel = 0; panel < n_panels || std::ldexp(first_panel, panel) < hub_fades_at; ++panel) {
+    const double begin = std::ldexp(first_panel, panel);
+    panels.emplace_back();
+    for (int i = 0; i < n_chebyshev; ++i) {
+      const double k = begin * (1 + (1 + chebyshev_point(i)) / 2);
+      panels.back().push_back(k * computed_compliance(k));
+    }
+  }
+}
+
+BesselModes::Samples BesselModes::sample(double k) const {
+  const SpectralIntegration& rule = spectral_integration();
+  const double depth = log_of_ratio(b, a);
+  std::array<double, n_gauss> theta;
+  for (int i = 0; i < n_gauss; ++i)
+    theta[i] = logarithmic_derivative(k, k * omega * b * std::exp((rule.point[i] - 1) * depth / 2));
+
+  Samples samples;
+  samples.theta_at_surface = logarithmic_derivative(k, k * omega * b);
+  samples.largest_exponent = 0;
+  samples.q = 0;
+  for (int i = 0; i < n_gauss; ++i) {
+    double exponent = 0;
+    for (int j = 0; j < n_gauss; ++j)
+      exponent += rule.to_the_right[i][j] * theta[j];
+    samples.exponent[i] = exponent * depth / 2;
+    samples.largest_exponent += rule.weight[i] * theta[i] * depth / 2;
+  }
+  if (samples.largest_exponent >= negligible_exponent) {
+    samples.q = std::numeric_limits<double>::infinity();
+    return samples;
+  }
+  for (int i = 0; i < n_gauss; ++i)
+    samples.q += rule.weight[i] * depth / 2 * std::exp(2 * samples.exponent[i]);
+  return samples;
+}
+
+double BesselModes::compliance_without_hub(double k) const {
+  return b / logarithmic_derivative(k, k * omega * b);
+}
+
+bool BesselModes::hub_matters(double k) const {
+  // theta falls from the hub to the surface: the inner half alone bounds the exponent from below.
+  const double at_middle = logarithmic_derivative(k, k * omega * std::sqrt(a * b));
+  return at_middle * log_of_ratio(b, a) / 2 <= negligible_exponent;
+}
+
+double BesselModes::computed_compliance(double k) const {
+  if (k == 0)
+    return b * log_of_ratio(b, a);
+  if (!hub_matters(k))
+    return compliance_without_hub(k);
+  const Samples samples = sample(k);
+  return b / (samples.theta_at_surface + 1 / samples.q);
+}
+
+double BesselModes::compliance(double k) const {
+  if (k <= first_panel)
+    return computed_compliance(k);
+  const int panel = std::min<int>(std::ilogb(k / first_panel), panels.size() - 1);
+  const double begin = std::ldexp(first_panel, panel);
+  const double t = 2 * (k - begin) / begin - 1;
+  if (t > 1)
+    return compliance_without_hub(k);
+  double numerator = 0, denominator = 0;
+  for (int i = 0; i < n_chebyshev; ++i) {
+    const double distance = t - chebyshev_point(i);
+    if (distance == 0)
+      return panels[panel][i] / k;
+    const double weight =
+        (i % 2 ? -1. : 1.) * (i == 0 || i == n_chebyshev - 1 ? 0.5 : 1.) / distance;
+    numerator += weight * panels[panel][i];
+    denominator += weight;
+  }
+  return numerator / denominator / k;
+}
+
+BesselModes::Profile BesselModes::profile(double k, const std::vector<double>& radii) const {
+  const double depth = log_of_ratio(b, a);
+  Profile profile;
+  if (k == 0) {
+    for (const double r : radii) {
+      profile.value.push_back(log_of_ratio(r, a) / depth);
+      profile.derivative.push_back(1 / (r * depth));
+    }
+    return profile;
+  }
+
+  const SpectralIntegration& rule = spectral_integration();
+  const Samples samples = sample(k);
+  const bool has_hub = std::isfinite(samples.q);
+  // int_y^(ln b) dy / g^2 at the points
+  std::array<double, n_gauss> q_to_the_right;
+  for (int i = 0; i < n_gauss && has_hub; ++i) {
+    q_to_the_right[i] = 0;
+    for (int j = 0; j < n_gauss; ++j)
+      q_to_the_right[i] += rule.to_the_right[i][j] * depth / 2 * std::exp(2 * samples.exponent[j]);
+  }
+  for (const double r : radii) {
+    // Barycentric interpolation between Gauss-Legendre points.
+    const double t = 1 + 2 * std::log1p((r - b) / b) / depth;
+    double numerator = 0, q_numerator = 0, denominator = 0;
+    for (int i = 0; i < n_gauss; ++i) {
+      const double distance = t - rule.point[i];
+      if (distance == 0) {
+        numerator = samples.exponent[i];
+        q_numerator = has_hub ? q_to_the_right[i] : 0;
+        denominator = 1;
+        break;
+      }
+      const double weight = (i % 2 ? -1 : 1) *
+                            std::sqrt((1 - rule.point[i] * rule.point[i]) * rule.weight[i]) /
+                            distance;
+      numerator += weight * samples.exponent[i];
+      q_numerator += has_hub ? weight * q_to_the_right[i] : 0;
+      denominator += weight;
+    }
+    const double exponent = numerator / denominator;
+    const double share = has_hub ? 1 - q_numerator / denominator / samples.q : 1;
+    const double g = std::exp(-exponent);
+    const double theta = logarithmic_derivative(k, k * omega * r);
+    profile.value.push_back(g * share);
+    profile.derivative.push_back((theta * g * share + (has_hub ? 1 / (g * samples.q) : 0)) / r);
+  }
+  return profile;
+}
+
+} // namespace rollwave

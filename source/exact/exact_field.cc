@@ -1,0 +1,71 @@
+#include "rollwave/exact/exact_field.h"
+
+#include "rollwave/exact/uniform_force.h"
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace rollwave {
+
+using namespace dealii;
+
+ExactField::ExactField(const ExactScene& scene, const ExactSolution& solution, unsigned int n_modes)
+    : scene(scene), modes(scene.inner_radius, scene.outer_radius, scene.angular_velocity) {
+  for (unsigned int k = 0; k < n_modes; ++k)
+    amplitudes.push_back(-(k == 0 ? 1 : 2) * modes.compliance(k) *
+                         solution.pressure.cosine_integral(k) / (2 * numbers::PI));
+}
+
+ExactField::Value ExactField::operator()(double r, double z) const {
+  const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
+  Value value{contact_free_displacement(scene, r), f * (b - r) * (b + r) / (2 * r), 0};
+  const double x = z - 3 * numbers::PI / 2;
+  for (unsigned int k = 0; k < amplitudes.size(); ++k) {
+    double radial = 1, slope = 0;
+    if (r < b) {
+      const BesselModes::Profile profile = modes.profile(k, {r});
+      radial = profile.value[0];
+      slope = profile.derivative[0];
+    } else
+      slope = 1 / modes.compliance(k);
+    value.displacement += amplitudes[k] * radial * std::cos(k * x);
+    value.radial_derivative += amplitudes[k] * slope * std::cos(k * x);
+    value.angular_derivative -= amplitudes[k] * radial * k * std::sin(k * x);
+    if (k * log_of_ratio(r, a) > 1 && std::abs(radial) < 1e-18)
+      break;
+  }
+  return value;
+}
+
+std::vector<std::vector<double>>
+ExactField::cosine_coefficients(const std::vector<double>& radii) const {
+  std::vector<std::vector<double>> coefficients(radii.size());
+  for (unsigned int i = 0; i < radii.size(); ++i)
+    coefficients[i].push_back(contact_free_displacement(scene, radii[i]));
+  // Radii at which modes still matter, the outermost last to fade.
+  std::vector<unsigned int> left(radii.size());
+  for (unsigned int i = 0; i < radii.size(); ++i)
+    left[i] = i;
+  for (unsigned int k = 0; k < amplitudes.size() && !left.empty(); ++k) {
+    std::vector<double> own;
+    for (const unsigned int i : left)
+      own.push_back(radii[i]);
+    const BesselModes::Profile profile = modes.profile(k, own);
+    std::vector<unsigned int> next;
+    for (unsigned int j = 0; j < left.size(); ++j) {
+      auto& list = coefficients[left[j]];
+      if (k == 0)
+        list[0] += amplitudes[0] * profile.value[j];
+      else
+        list.push_back(amplitudes[k] * profile.value[j]);
+      if (k * log_of_ratio(radii[left[j]], scene.inner_radius) < 1 ||
+          std::abs(profile.value[j]) > 1e-9)
+        next.push_back(left[j]);
+    }
+    left = std::move(next);
+  }
+  return coefficients;
+}
+
+} // namespace rollwave

@@ -1,0 +1,199 @@
+#include "rollwave/mesh/ring_mesh.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/base/memory.h"
+#include "rollwave/base/mpi_processes.h"
+#include "rollwave/mesh/boundary_id.h"
+#include "rollwave/mesh/strip_mesh.h"
+#include "rollwave/scene/scene.h"
+
+#include <boost/math/tools/roots.hpp>
+#include <deal.II/base/numbers.h>
+#include <deal.II/distributed/tria.h>
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iomanip>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+using Distributed = parallel::distributed::Triangulation<2>;
+
+constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
+constexpr double seam_angle = numbers::PI / 2;
+
+/// @p n + 1 places from @p begin to @p end at equal distances, without the first.
+void append_equal(std::vector<double>& places, double begin, double end, int n) {
+  for (int i = 1; i < n; ++i)
+    places.push_back(begin + (end - begin) * i / n);
+  places.push_back(end);
+}
+
+/// The angles of the vertices: at equal distances, or nearly so where the user gives a zone of
+/// contact, whose ends shall be vertices.
+std::vector<double> angles_of(const Scene& scene, int n) {
+  const double end = seam_angle + 2 * numbers::PI;
+  std::vector<double> angles = {seam_angle};
+  if (!scene.has_given_zone) {
+    append_equal(angles, seam_angle, end, n);
+    return angles;
+  }
+  const int n_zone = std::clamp<int>(
+      std::lround(n * (scene.zone_end - scene.zone_begin) / (2 * numbers::PI)), 1, n - 2);
+  // What is left is shared by both sides, so that mirrored zones have mirrored meshes.
+  const double before = scene.zone_begin - seam_angle, behind = end - scene.zone_end;
+  const int n_before =
+      std::clamp<int>(std::lround((n - n_zone) * before / (before + behind)), 1, n - n_zone - 1);
+  append_equal(angles, seam_angle, scene.zone_begin, n_before);
+  append_equal(angles, scene.zone_begin, scene.zone_end, n_zone);
+  append_equal(angles, scene.zone_end, end, n - n_zone - n_before);
+  return angles;
+}
+
+/// The radii of the vertices: at equal distances, unless cells next to the hub would be taller than
+/// its radius. Since u is much like ln(r/a) there, heights then grow with the radius first, r_i = a
+/// q^i, and are equal from where that would make them taller. q is 2 where the cells suffice, else
+/// half of the cells grow.
+std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
+  const double a = inner_radius, b = outer_radius;
+  std::vector<double> radii = {a};
+  if ((b - a) / n <= a || n < 3) {
+    append_equal(radii, a, b, n);
+    return radii;
+  }
+  // By how much the last growing cell exceeds the equal ones.
+  const auto excess = [&](double q, int n_growing) {
+    const double r = a * std::pow(q, n_growing);
+    return r * (1 - 1 / q) - (b - r) / (n - n_growing);
+  };
+  int n_growing = 1;
+  while (n_growing < n - 1 && excess(2, n_growing) < 0)
+    ++n_growing;
+  double q = 2;
+  if (excess(q, n_growing) < 0) {
+    n_growing = n / 2;
+    std::uintmax_t most_evaluations = 100;
+    q = boost::math::tools::toms748_solve([&](double ratio) { return excess(ratio, n_growing); },
+                                          2., std::pow(b / a, 1. / n_growing),
+                                          boost::math::tools::eps_tolerance<double>(40),
+                                          most_evaluations)
+            .first;
+  }
+  for (int i = 1; i <= n_growing; ++i)
+    radii.push_back(a * std::pow(q, i));
+  append_equal(radii, radii.back(), b, n - n_growing);
+  return radii;
+}
+
+/// Adds the middles between neighbours.
+void halve(std::vector<double>& places) {
+  std::vector<double> halved = {places.front()};
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    halved.push_back((places[i - 1] + places[i]) / 2);
+    halved.push_back(places[i]);
+  }
+  places = std::move(halved);
+}
+
+/// The rectangles between these places on one process.
+std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
+                                            const std::vector<double>& angles) {
+  auto grid = std::make_unique<Triangulation<2>>(smoothing);
+  const std::vector<unsigned int> n_cells = {static_cast<unsigned int>(radii.size() - 1),
+                                             static_cast<unsigned int>(angles.size() - 1)};
+  // In units of cells first: heights may be far smaller than lengths in z, and places shall be
+  // exact, those of the surface above all.
+  GridGenerator::subdivided_hyper_rectangle(*grid, n_cells, Point<2>(),
+                                            Point<2>(n_cells[0], n_cells[1]), /*colorize=*/true);
+  GridTools::transform(
+      [&](const Point<2>& cells) {
+        return Point<2>(radii[std::lround(cells[0])], angles[std::lround(cells[1])]);
+      },
+      *grid);
+  return grid;
+}
+
+void make_periodic(Triangulation<2>& triangulation) {
+  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
+  GridTools::collect_periodic_faces(triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
+                                    seam);
+  triangulation.add_periodicity(seam);
+}
+
+/// All digits where they are exact.
+std::string count_text(double count) {
+  std::ostringstream text;
+  text << std::setprecision(count < 1e15 ? 15 : 3) << count;
+  return text.str();
+}
+
+} // namespace
+
+double count_unknowns(const MeshOptions& mesh) {
+  return std::pow(std::ldexp(mesh.degree, mesh.global_refinements), 2) * mesh.radial_cells *
+         mesh.angular_cells;
+}
+
+void check_mesh_size(const MeshOptions& mesh) {
+  const double unknowns = count_unknowns(mesh);
+  if (unknowns > mesh.most_unknowns)
+    throw BadValue("Mesh", "Most unknowns",
+                   "the mesh would have " + count_text(unknowns) +
+                       " unknowns; allow more, or ask for fewer cells, refinements or a lower "
+                       "degree");
+}
+
+std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& mesh,
+                                                 bool may_be_refined, MPI_Comm communicator) {
+  check_mesh_size(mesh);
+
+  // What the cells alone occupy at least, whatever is solved on them.
+  const double bytes = 200. * count_unknowns(mesh) / (mesh.degree * mesh.degree);
+  require_memory(bytes / count_processes(communicator), "the mesh", communicator);
+
+  std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
+  std::vector<double> angles = angles_of(scene, mesh.angular_cells);
+  if (!may_be_refined && !is_alone(communicator)) {
+    for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
+      halve(radii);
+      halve(angles);
+    }
+    auto strips = make_strip_mesh(radii, angles, communicator);
+    make_periodic(*strips);
+    return strips;
+  }
+
+  std::unique_ptr<Triangulation<2>> triangulation = make_grid(radii, angles);
+  Distributed* distributed = nullptr;
+  if (!is_alone(communicator)) {
+    // Cells change their process when a refinement is complete, and not before.
+    auto shared = std::make_unique<Distributed>(communicator, smoothing,
+                                                Distributed::no_automatic_repartitioning);
+    shared->copy_triangulation(*triangulation);
+    distributed = shared.get();
+    triangulation = std::move(shared);
+  }
+  make_periodic(*triangulation);
+  for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
+    triangulation->refine_global();
+    // From then on the shares of the processes are equal but for few cells, and stay so.
+    constexpr unsigned int cells_of_a_share = 4000;
+    if (distributed &&
+        distributed->n_global_active_cells() < cells_of_a_share * count_processes(communicator))
+      distributed->repartition();
+  }
+  return triangulation;
+}
+
+} // namespace rollwave

@@ -1,0 +1,221 @@
+#include "rollwave/mesh/ring_space.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
+#include "rollwave/mesh/boundary_id.h"
+#include "rollwave/mesh/matrix_pattern.h"
+#include "rollwave/mesh/nested_dissection.h"
+#include "rollwave/scene/scene.h"
+
+#include <deal.II/base/function.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
+#include <deal.II/numerics/vector_tools_boundary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// What hanging nodes and the nodes on the seam follow, not closed yet.
+AffineConstraints<double> ties(const DoFHandler<2>& handler) {
+  AffineConstraints<double> constraints(DoFTools::extract_locally_relevant_dofs(handler));
+  // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
+  // the seam twice.
+  if (handler.get_triangulation().has_hanging_nodes())
+    DoFTools::make_hanging_node_constraints(handler, constraints);
+  DoFTools::make_periodicity_constraints(handler, seam_begin_id, seam_end_id, /*direction=*/1,
+                                         constraints);
+  return constraints;
+}
+
+} // namespace
+
+RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, unsigned int degree)
+    : radius(scene.outer_radius), element(degree), handler(triangulation) {
+  handler.distribute_dofs(element);
+
+  relevant = DoFTools::extract_locally_relevant_dofs(handler);
+  affine_constraints = ties(handler);
+  VectorTools::interpolate_boundary_values(cartesian, handler, hub_id, Functions::ZeroFunction<2>(),
+                                           affine_constraints);
+  affine_constraints.close();
+  const IndexSet& owned = handler.locally_owned_dofs();
+  unsigned int n_own_unknowns = 0;
+  for (const auto dof : owned)
+    n_own_unknowns += !affine_constraints.is_constrained(dof);
+  unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
+
+  if (!is_alone(communicator()))
+    for (const auto& line : affine_constraints.get_lines())
+      for (const auto& entry : line.entries)
+        relevant.add_index(entry.first);
+  partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
+  find_surface_nodes(scene);
+  look_over_cells();
+}
+
+RingSpace::~RingSpace() = default;
+
+void RingSpace::look_over_cells() {
+  double least = std::numeric_limits<double>::max(), largest = 0;
+  for (const auto& cell : handler.active_cell_iterators()) {
+    if (cell->is_artificial())
+      continue;
+    if (cell->at_boundary(1) || cell->at_boundary(2) || cell->at_boundary(3))
+      at_surface_or_seam.push_back(cell);
+    if (!cell->is_locally_owned())
+      continue;
+    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+    const double diameter = std::hypot(size[0], radius * size[1]);
+    least = std::min(least, diameter);
+    largest = std::max(largest, diameter);
+  }
+  least_and_largest_diameter = {Utilities::MPI::min(least, communicator()),
+                                Utilities::MPI::max(largest, communicator())};
+}
+
+void RingSpace::find_surface_nodes(const Scene& scene) {
+  const unsigned int n = element.degree + 1;
+  const QGaussLobatto<1> lobatto(n);
+  FEFaceValues<2> face_values(cartesian, element, lobatto,
+                              update_values | update_quadrature_points | update_JxW_values);
+  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
+
+  // The nodes of the own edges, n for each: angles, weights and numbers.
+  std::vector<double> own_begins, own_angles, own_weights;
+  std::vector<types::global_dof_index> own_dofs;
+  for (const auto& cell : handler.active_cell_iterators())
+    if (cell->is_locally_owned())
+      for (const auto& face : cell->face_iterators())
+        if (face->at_boundary() && face->boundary_id() == surface_id) {
+          face_values.reinit(cell, face);
+          cell->get_dof_indices(dofs);
+          own_begins.push_back(cell->vertex(1)[1]);
+          for (const unsigned int q : face_values.quadrature_point_indices())
+            for (const unsigned int i : face_values.dof_indices())
+              // The quadrature points are the nodes, where one shape function is 1, the others 0.
+              if (face_values.shape_value(i, q) > 0.5) {
+                // A node on the seam counts as the node that its constraint equates it with.
+                types::global_dof_index dof = dofs[i];
+                if (const auto* entries = affine_constraints.get_constraint_entries(dof))
+                  dof = entries->front().first;
+                own_dofs.push_back(dof);
+                own_angles.push_back(face_values.quadrature_point(q)[1]);
+                own_weights.push_back(scene.outer_radius * face_values.JxW(q));
+              }
+        }
+  const auto all_begins = Utilities::MPI::all_gather(communicator(), own_begins);
+  const auto all_angles = Utilities::MPI::all_gather(communicator(), own_angles);
+  const auto all_weights = Utilities::MPI::all_gather(communicator(), own_weights);
+  const auto all_dofs = Utilities::MPI::all_gather(communicator(), own_dofs);
+
+  // The edges of all processes, from the seam on.
+  struct Edge {
+    double begin;
+    unsigned int process, number;
+    bool operator<(const Edge& other) const { return begin < other.begin; }
+  };
+  std::vector<Edge> edges;
+  for (unsigned int process = 0; process < all_begins.size(); ++process)
+    for (unsigned int k = 0; k < all_begins[process].size(); ++k)
+      edges.push_back({all_begins[process][k], process, k});
+  std::sort(edges.begin(), edges.end());
+
+  const double middle = (scene.zone_begin + scene.zone_end) / 2;
+  const auto turn = [middle](double z) {
+    return 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);
+  };
+  std::map<types::global_dof_index, SurfaceNode> nodes;
+  for (const Edge& edge : edges)
+    for (unsigned int k = edge.number * n; k < (edge.number + 1) * n; ++k) {
+      const auto dof = all_dofs[edge.process][k];
+      const double z = all_angles[edge.process][k];
+      auto& node = nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second;
+      node.weight += all_weights[edge.process][k];
+    }
+  for (const auto& [dof, node] : nodes)
+    surface.push_back(node);
+  std::sort(surface.begin(), surface.end(),
+            [](const auto& left, const auto& right) { return left.angle < right.angle; });
+  std::map<types::global_dof_index, unsigned int> number_of_dof;
+  for (unsigned int i = 0; i < surface.size(); ++i)
+    number_of_dof[surface[i].dof] = i;
+
+  for (const Edge& edge : edges) {
+    const unsigned int first = edge.number * n;
+    const auto& angles = all_angles[edge.process];
+    const double turned = turn((angles[first] + angles[first + n - 1]) / 2);
+    SurfaceFace face = {angles[first] - turned, angles[first + n - 1] - turned, {}};
+    for (unsigned int k = first; k < first + n; ++k)
+      face.nodes.push_back(number_of_dof.at(all_dofs[edge.process][k]));
+    face_from[edge.begin] = faces.size();
+    faces.push_back(std::move(face));
+  }
+
+  for (unsigned int i = 0; i < surface.size(); ++i)
+    if (scene.is_in_zone(surface[i].angle)) {
+      if (contact.empty())
+        first_contact = i;
+      contact.push_back(surface[i]);
+    }
+  if (contact.empty())
+    throw BadInput("no node of the mesh lies in the contact zone from " +
+                   std::to_string(scene.zone_begin) + " to " + std::to_string(scene.zone_end) +
+                   "; raise Mesh/Angular cells or widen Road/Contact zone");
+}
+
+std::optional<unsigned int>
+RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
+  if (cell->vertex(1)[0] != radius) // quicker than at_boundary(), and asked for every cell
+    return {};
+  return face_from.at(cell->vertex(1)[1]);
+}
+
+const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
+  if (order.empty())
+    order = dissect(handler);
+  return order;
+}
+
+const TrilinosWrappers::SparsityPattern&
+RingSpace::matrix_pattern(const AffineConstraints<double>& constraints) const {
+  if (handler.get_triangulation().has_hanging_nodes()) {
+    pattern = make_matrix_pattern(handler, constraints, relevant);
+  } else if (!pattern) {
+    AffineConstraints<double> seam = ties(handler);
+    seam.close();
+    pattern = make_matrix_pattern(handler, seam, relevant);
+  }
+  return *pattern;
+}
+
+std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
+  return values_at(surface, field);
+}
+
+Vector<double> RingSpace::contact_values(const FieldVector& field) const {
+  const std::vector<double> values = values_at(contact, field);
+  return Vector<double>(values.begin(), values.end());
+}
+
+std::vector<double> RingSpace::values_at(const std::vector<SurfaceNode>& nodes,
+                                         const FieldVector& field) const {
+  // A sum with zeros is exact in any order, so that all processes get the same digits.
+  std::vector<double> values(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (field.in_local_range(nodes[i].dof))
+      values[i] = field(nodes[i].dof);
+  Utilities::MPI::sum(values, communicator(), values);
+  return values;
+}
+
+} // namespace rollwave

@@ -1,0 +1,68 @@
+#include "rollwave/parameters/command_line.h"
+
+#include "rollwave/base/errors.h"
+
+namespace rollwave {
+
+std::string usage() {
+  return R"(Rollwave computes the steady rolling of an elastic cylinder on a flat road.
+
+Usage:
+  rollwave [--verify] FILE.prm [--output DIR] [--set "Section/Key=value"]...
+  mpirun -np N rollwave ...   the same on N processes
+  rollwave --parameters [FILE.prm]   print a complete commented parameter file
+  rollwave --help         print this text
+  rollwave --version      print the versions of Rollwave and deal.II
+
+Options:
+  --verify                    compare the results with the exact solution of the scene
+  --output DIR                the directory for the files, instead of the file's
+  --set "Section/Key=value"   overrides the file; may be repeated
+
+Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
+)";
+}
+
+CommandLine read_command_line(const std::vector<std::string>& arguments) {
+  CommandLine line;
+  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    const auto option_value = [&]() {
+      const std::string option = *argument;
+      if (++argument == arguments.end())
+        throw BadInput(option + " needs a value after it; see rollwave --help");
+      return *argument;
+    };
+    if (*argument == "--help" || *argument == "-h")
+      line.action = CommandLine::Action::help;
+    else if (*argument == "--version")
+      line.action = CommandLine::Action::version;
+    else if (*argument == "--parameters")
+      line.action = CommandLine::Action::parameters;
+    else if (*argument == "--verify")
+      line.verify = true;
+    else if (*argument == "--output")
+      line.settings.push_back({"Output", "Directory", option_value(), "--output"});
+    else if (*argument == "--set")
+      line.settings.push_back(parse_setting(option_value(), "--set"));
+    else if (argument->size() > 1 && argument->front() == '-')
+      throw BadInput("unknown option " + printable(*argument) + "; see rollwave --help");
+    else if (!line.file.empty())
+      throw BadInput("one parameter file at a time: " + printable(line.file.string()) + " or " +
+                     printable(*argument));
+    else
+      line.file = *argument;
+  }
+  if (line.action == CommandLine::Action::run && line.file.empty())
+    throw BadInput("no parameter file given\n\n" + usage());
+  return line;
+}
+
+std::vector<Setting> settings_of(const CommandLine& line) {
+  std::vector<Setting> settings;
+  if (!line.file.empty())
+    settings = read_settings(line.file);
+  settings.insert(settings.end(), line.settings.begin(), line.settings.end());
+  return settings;
+}
+
+} // namespace rollwave

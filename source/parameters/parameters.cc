@@ -1,0 +1,309 @@
+#include "rollwave/parameters/parameters.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/parameters/declarations.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <ostream>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
+  if (text == "auto")
+    return {};
+  const auto ends = split(text, ',');
+  if (ends.size() != 2)
+    throw std::invalid_argument(text);
+  return std::pair(to_number(ends[0]), to_number(ends[1]));
+}
+
+/// A study lists all of its combinations before it begins.
+constexpr unsigned int most_varied_keys = 20;
+constexpr unsigned int most_runs = 100000;
+
+std::vector<std::vector<Setting>> parse_vary(const std::string& text) {
+  std::vector<std::vector<Setting>> vary;
+  double n_runs = 1;
+  for (const std::string& part : split(text, ';')) {
+    const Setting all = parse_setting(part, "Study/Vary");
+    vary.emplace_back();
+    for (const std::string& value : split(all.value, '|'))
+      vary.back().push_back({all.section, all.key, value, all.origin});
+    n_runs *= vary.back().size();
+    const auto is_same_key = [&all](const auto& list) { return list[0].path() == all.path(); };
+    if (all.section == "Study" || all.section == "Output" || vary.back().empty() ||
+        vary.size() > most_varied_keys || n_runs > most_runs ||
+        std::any_of(vary.begin(), vary.end() - 1, is_same_key))
+      throw std::invalid_argument(text);
+  }
+  return vary;
+}
+
+std::vector<Parameters::NamedScene> parse_scenes(const std::string& text) {
+  std::vector<Parameters::NamedScene> scenes;
+  for (const std::string& part : split(text, ';')) {
+    const auto colon = part.find(':');
+    if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
+      throw std::invalid_argument(text);
+    scenes.push_back({trimmed(part.substr(0, colon)), {}});
+    for (const std::string& assignment : split(part.substr(colon + 1), '&')) {
+      scenes.back().settings.push_back(parse_setting(assignment, "Study/Scenes"));
+      const std::string& section = scenes.back().settings.back().section;
+      if (section == "Study" || section == "Output")
+        throw std::invalid_argument(text);
+    }
+  }
+  return scenes;
+}
+
+std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
+  std::vector<std::optional<unsigned int>> counts;
+  for (const std::string& part : split(text, ','))
+    if (part == "-")
+      counts.emplace_back();
+    else
+      counts.emplace_back(to_count(part, 1, 1000000000));
+  return counts;
+}
+
+const std::map<std::string, OutputFile> output_files = {{"summary", OutputFile::summary},
+                                                        {"contact", OutputFile::contact},
+                                                        {"parameters", OutputFile::parameters},
+                                                        {"solution", OutputFile::solution},
+                                                        {"plot", OutputFile::plot}};
+
+std::vector<OutputFile> parse_files(const std::string& text) {
+  std::vector<OutputFile> files;
+  for (const std::string& name : split(text, ',')) {
+    if (name == "mesh")
+      throw BadInput(
+          "the file kind \"mesh\" is gone: see the cells in solution.vtu with ParaView's "
+          "\"Surface With Edges\"");
+    files.push_back(output_files.at(name));
+  }
+  return files;
+}
+
+/// Every key of the program: name, default, range, unit and text, each in one statement.
+void declare(Declarations& keys, Parameters& p) {
+  const double tiny = std::numeric_limits<double>::min();
+  const double huge = std::numeric_limits<double>::max();
+  const unsigned int most = std::numeric_limits<int>::max();
+
+  keys.enter("Cylinder");
+  keys.add_number("Inner radius", p.cylinder.inner_radius, tiny, huge,
+                  "Radius a of the rigid hub: a length, greater than 0, at least 1e-150 of b.");
+  // Energies have the square of the unit of length.
+  keys.add_number("Outer radius", p.cylinder.outer_radius, 1e-151, 1e151,
+                  "Radius b of the undeformed cylinder: a length, greater than a, from 1e-151 to "
+                  "1e151.");
+  keys.add_number(
+      "Angular velocity", p.cylinder.angular_velocity, 0, huge,
+      "Angular velocity omega of rolling over the wave speed: one over a length, from 0 "
+      "to 1/b.");
+  keys.add_text("Radial force", p.cylinder.radial_force,
+                "Radial force density f: an expression in r and z, a <= r <= b, 0 <= z < 2 pi.");
+  keys.leave();
+
+  keys.enter("Road");
+  keys.add_number("Distance", p.road.distance, tiny, huge,
+                  "Distance c of the flat road below the axle: a length, greater than a; less than "
+                  "2 b where the zone is auto.");
+  keys.add(
+      "Contact zone", "auto",
+      [&p](const std::string& text) { p.road.contact_zone = parse_zone(text); },
+      "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
+      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
+      "surface without contact would be beyond the road, and two cells more, but never beyond "
+      "phi < b; where the force is not uniform, it is where phi < b.");
+  keys.leave();
+
+  keys.enter("Mesh");
+  keys.add_count("Degree", p.mesh.degree, 1, highest_degree,
+                 "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.");
+  keys.add_count(
+      "Radial cells", p.mesh.radial_cells, 1, most,
+      "Cells from hub to surface, 1 or more: of equal heights, which grow with the radius next "
+      "to a hub that is smaller than they would be.");
+  keys.add_count("Angular cells", p.mesh.angular_cells, 3, most, "Cells around, 3 or more.");
+  keys.add_count("Global refinements", p.mesh.global_refinements, 0, 20,
+                 "How often every cell is cut into four, 0 to 20.");
+  keys.add(
+      "Adaptive cycles", "auto",
+      [&p](const std::string& text) {
+        p.mesh.adaptive_cycles =
+            text == "auto" ? std::nullopt : std::optional(to_count(text, 0, 1000));
+      },
+      "How often the mesh is refined where the error is, after the global refinements: a number "
+      "from 0 to 1000 or \"auto\", as often as the wanted relative error needs, which is never "
+      "when "
+      "none is wanted.");
+  keys.add_number("Wanted relative error", p.mesh.wanted_relative_error, 0, 1,
+                  "Refine until the certified error in the energy norm, relative to the solution, "
+                  "is no larger than this number, from 0 to 1; 0 for no such wish.");
+  keys.add_choice<Indicator>(
+      "Indicator", p.mesh.indicator,
+      {{"residual", Indicator::residual}, {"kelly", Indicator::kelly}},
+      "What tells where to refine. \"residual\": residuals and contact conditions on each cell. "
+      "\"kelly\": jumps of the normal derivative, for comparison.");
+  keys.add_choice<Marking>(
+      "Marking", p.mesh.marking,
+      {{"bulk", Marking::bulk}, {"number", Marking::number}, {"all", Marking::all}},
+      "Which cells to refine. \"bulk\": the fewest that hold the marked fraction of the squared "
+      "error. \"number\": the marked fraction of all cells. \"all\": every cell.");
+  keys.add_number("Marked fraction", p.mesh.marked_fraction, 0.01, 1,
+                  "The fraction that Marking speaks of, from 0.01 to 1.");
+  keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
+                 "A mesh with more unknowns than this number is refused; adaptive refinement ends "
+                 "below it.");
+  keys.leave();
+
+  keys.enter("Certificate");
+  keys.add_choice<bool>("Error bound", p.certificate.error_bound,
+                        {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to compute a guaranteed bound of the error "
+                        "in the energy norm, with bounds of the energy from both sides; costs "
+                        "at most about another linear solve.");
+  keys.add_choice<bool>("Load bounds", p.certificate.load_bounds,
+                        {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to bound the work-conjugate load G from "
+                        "both sides, by the certified energies of two more road distances; costs "
+                        "two more scenes on the last mesh.");
+  keys.leave();
+
+  keys.enter("Contact");
+  keys.add_choice<ContactMethod>(
+      "Method", p.contact.method,
+      {{"active set", ContactMethod::active_set}, {"uzawa", ContactMethod::uzawa}},
+      "The contact iteration. \"active set\": primal-dual active set, ends in finitely many steps. "
+      "\"uzawa\": projected steps of length rho on the pressure.");
+  keys.add(
+      "Rho", "auto",
+      [&p](const std::string& text) {
+        p.contact.rho = text == "auto" ? std::nullopt : std::optional(to_number(text));
+        if (p.contact.rho && *p.contact.rho <= 0)
+          throw std::invalid_argument(text);
+      },
+      "Uzawa's step length rho, pressure over displacement: \"auto\" or a number greater than 0. "
+      "\"auto\" is 1.8 over the largest eigenvalue of the compliance of the contact zone.");
+  keys.add_choice<UzawaStop>(
+      "Stopping rule", p.contact.stop, {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
+      "What Uzawa compares with the tolerance, in the l2 norm over the contact nodes, relative to "
+      "that of u. \"gap\": |p_new - p| / rho, how far the contact conditions are violated. "
+      "\"change\": the change of u in one step.");
+  keys.add_number("Tolerance", p.contact.tolerance, 1e-15, 0.1,
+                  "Where Uzawa stops: a relative number from 1e-15 to 0.1. The active set method "
+                  "ends when the set is right and needs none.");
+  keys.add_count("Most steps", p.contact.most_steps, 1, most,
+                 "The contact iteration gives up after this number of steps, 1 or more.");
+  keys.leave();
+
+  keys.enter("Solver");
+  keys.add_choice<SolverKind>(
+      "Kind", p.solver.kind,
+      {{"auto", SolverKind::automatic},
+       {"direct", SolverKind::direct},
+       {"iterative", SolverKind::iterative}},
+      "How linear problems are solved. \"direct\": one sparse Cholesky factorisation for each "
+      "mesh. \"iterative\": conjugate gradients with algebraic multigrid, slower but with less "
+      "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
+  keys.leave();
+
+  keys.enter("Study");
+  keys.add(
+      "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
+      "Empty for a single scene, otherwise the keys to vary and their values, as in "
+      "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
+      "varies fastest. At most 20 keys, each once and none of Study and Output, in at most 100000 "
+      "combinations.");
+  keys.add(
+      "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
+      "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
+      "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
+      "Mesh/Radial cells = 8\". Every scene is run with every combination of Vary.");
+  keys.add(
+      "Published steps", "",
+      [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },
+      "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
+      "separated by commas, - where none is known.");
+  keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to compare every run with the exact "
+                        "solution of its scene; where none is known, the certified error is all "
+                        "there is.");
+  keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
+                 "Under MPI with a number greater than 0, as many processes make a run and several "
+                 "runs are made at the same time; one process hands them out. 0: all processes "
+                 "make each run together.");
+  keys.leave();
+
+  keys.enter("Output");
+  keys.add_text("Directory", p.output.directory, "The directory of the files, made when missing.");
+  keys.add(
+      "Files", "summary, contact, parameters, solution, plot",
+      [&p](const std::string& text) { p.output.files = parse_files(text); },
+      "The files to write: any of summary (summary.json), contact (contact.csv), parameters "
+      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study).");
+  keys.leave();
+
+  keys.refuse("Study", "Continue meshes", "adaptive runs begin anew; leave the key out");
+  keys.refuse("Study", "Reference unknowns",
+              "where no exact solution is known, the certified error is given; leave the key out");
+}
+
+} // namespace
+
+bool Parameters::wants(OutputFile file) const {
+  return std::find(output.files.begin(), output.files.end(), file) != output.files.end();
+}
+
+Parameters read_parameters(const std::vector<Setting>& settings) {
+  Parameters parameters;
+  ParameterHandler prm;
+  Declarations keys(prm);
+  declare(keys, parameters);
+  keys.apply(settings);
+  for (const Setting& setting : settings) {
+    const std::string origin = setting.origin + ", " + setting.path();
+    if (setting.path() == "Study/Vary")
+      for (auto& values : parameters.study.vary)
+        for (Setting& value : values)
+          value.origin = origin;
+    if (setting.path() == "Study/Scenes")
+      for (auto& scene : parameters.study.scenes)
+        for (Setting& value : scene.settings)
+          value.origin = origin;
+  }
+  parameters.settings = settings;
+  return parameters;
+}
+
+std::string refusal(const std::vector<Setting>& settings, const std::string& section,
+                    const std::string& key, const std::string& wanted) {
+  const auto last = std::find_if(settings.rbegin(), settings.rend(), [&](const Setting& setting) {
+    return setting.section == section && setting.key == key;
+  });
+  if (last == settings.rend())
+    return place({section, key, "", "default value"}) + ": " + wanted;
+  return place(*last) + ", value " + in_quotes(last->value) + ": " + wanted;
+}
+
+std::string refusal(const std::vector<Setting>& settings, const BadValue& value) {
+  return refusal(settings, value.section, value.key, value.wanted);
+}
+
+void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
+  Parameters parameters;
+  ParameterHandler prm;
+  Declarations keys(prm);
+  declare(keys, parameters);
+  keys.apply(settings);
+  prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+}
+
+} // namespace rollwave

@@ -1,0 +1,28 @@
+#include "rollwave/run/run_options.h"
+
+#include "rollwave/base/errors.h"
+
+namespace rollwave {
+
+namespace {
+
+/// What needs the certificate is refused without it.
+void check_certificate(const RunOptions& options) {
+  if (options.certificate.error_bound)
+    return;
+  if (options.certificate.load_bounds)
+    throw BadValue("Certificate", "Load bounds",
+                   "they need the error bound; set Certificate/Error bound = true");
+  if (options.mesh.wanted_relative_error > 0)
+    throw BadValue("Mesh", "Wanted relative error",
+                   "it is judged by the certificate; set Certificate/Error bound = true");
+}
+
+} // namespace
+
+Scene make_scene(const RunOptions& options) {
+  check_certificate(options);
+  return make_scene(options.cylinder, options.road, options.mesh.angular_cells);
+}
+
+} // namespace rollwave

@@ -1,0 +1,331 @@
+#include "rollwave/run/simulation.h"
+
+#include "rollwave/adapt/marking.h"
+#include "rollwave/adapt/residual_indicator.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
+#include "rollwave/base/mpi_processes.h"
+#include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/run/load_bounds.h"
+#include "rollwave/run/remarks.h"
+#include "rollwave/run/solve_on_mesh.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace rollwave {
+
+using namespace dealii;
+
+void check_simulation(const RunOptions& options, unsigned int n_processes) {
+  if (options.solver.kind == SolverKind::direct && n_processes > 1)
+    throw BadValue("Solver", "Kind",
+                   "the direct kind needs one process; on several use auto or iterative");
+  check_mesh_size(options.mesh);
+}
+
+namespace {
+
+/// The pressure of the mesh before at the nodes of another, zero outside of the contact. Without
+/// entries when there was no mesh before.
+Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNode>& nodes) {
+  if (before.contact_rows.empty())
+    return {};
+  Vector<double> pressure(nodes.size());
+  const auto& ends = before.patch.ends;
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (const double z = nodes[i].angle; ends && ends->first <= z && z <= ends->second)
+      pressure(i) = pressure_at(before.contact_rows, z);
+  return pressure;
+}
+
+/// Why something was not solved. For want of memory there is other advice than the exception's.
+std::string reason_of(const NotSolved& failure) {
+  const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure);
+  return shortage ? shortage->reason : failure.what();
+}
+
+/// What is left out for a failure, and the key that leaves it out from the start.
+std::string left_out_text(const std::string& what, const NotSolved& failure,
+                          const std::string& key) {
+  return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
+}
+
+/// Certifies, unless that fails, such as for want of memory: then that is a shortfall.
+void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
+  Result& result = solution.result;
+  try {
+    solution.certificate =
+        certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
+                solution.system.load, solution.system.dual_of(scene, *solution.space, result.work),
+                result.work);
+  } catch (const NotSolved& failure) {
+    result.shortfalls.push_back(
+        left_out_text("the error could not be certified", failure, "Certificate/Error bound"));
+    return;
+  }
+  result.certified = solution.certificate->error;
+  result.cycles.back().certified = solution.certificate->error.relative;
+}
+
+/// eta_K of each active cell.
+std::vector<double> indicate(Indicator indicator, const Scene& scene, const MeshSolution& on_mesh,
+                             Solution& solution) {
+  const Work::Phase phase(solution.result.work, "indicator");
+  std::vector<double> of_cells = indicator == Indicator::kelly
+                                     ? kelly_indicator(*solution.space, on_mesh.displacement)
+                                     : residual_indicator(*solution.space, scene, on_mesh.problem,
+                                                          on_mesh.contact, on_mesh.displacement);
+  const double squared = std::inner_product(of_cells.begin(), of_cells.end(), of_cells.begin(), 0.);
+  solution.result.cycles.back().indicated =
+      std::sqrt(Utilities::MPI::sum(squared, solution.space->communicator()));
+  return of_cells;
+}
+
+/// The indicator or, where that is larger, the cell's part of the bound: G is rough along whole
+/// lines z = const inside of a force that is rough, which residuals do not see.
+std::vector<double> larger_of(std::vector<double> indicators, const Certificate& certificate) {
+  for (unsigned int i = 0; i < indicators.size(); ++i)
+    indicators[i] = std::max(indicators[i], certificate.cell_bounds[i]);
+  return indicators;
+}
+
+/**
+ * Which meshes of an adaptive run are certified besides the last one, where an error is wanted:
+ * those whose bound may be small enough, if it has about kept its ratio to the indicator since it
+ * was computed last, and those with three times the unknowns of that mesh, or a third of its
+ * indicator.
+ */
+class CertificateSchedule {
+public:
+  explicit CertificateSchedule(double wanted) : wanted(wanted) {}
+
+  bool is_due(const Result& result) const {
+    constexpr double margin = 1.3; // a mesh too many costs more than a certificate
+    const double indicated = result.cycles.back().indicated,
+                 bound = bound_over_indicator * indicated,
+                 norm = std::sqrt(result.energy.norm_squared);
+    return wanted > 0 &&
+           (result.mesh.dofs >= 3. * last_unknowns || 3 * indicated <= last_indicated ||
+            bound <= margin * wanted * std::max(norm - bound, 0.));
+  }
+
+  void note(const Result& result) {
+    last_unknowns = result.mesh.dofs;
+    last_indicated = result.cycles.back().indicated;
+    bound_over_indicator = result.certified->energy_norm / last_indicated;
+  }
+
+private:
+  const double wanted;
+  double last_unknowns = 0, last_indicated = 0, bound_over_indicator = 0;
+};
+
+double most_cells(const RunOptions& options) {
+  const auto& mesh = options.mesh;
+  return mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
+}
+
+/// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
+/// nothing is changed, when the mesh would get too large or no cell is marked.
+bool refine(const Scene& scene, const std::vector<double>& indicators, const RunOptions& options,
+            Solution& solution) {
+  const Work::Phase phase(solution.result.work, "mesh");
+  const auto& mesh = options.mesh;
+  if (!refine_mesh(*solution.triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
+                   mesh.degree, most_cells(options)))
+    return false;
+  solution.certificate.reset();
+  solution.system = {};
+  solution.space.reset();
+  solution.result.certified.reset();
+  return true;
+}
+
+bool is_reached(const RunOptions& options, const Result& result) {
+  return result.certified && result.certified->relative <= options.mesh.wanted_relative_error;
+}
+
+/// What of the wanted error is missing and why, and what to do.
+std::string missing_error_text(const RunOptions& options, const Solution& solution) {
+  const Result& result = solution.result;
+  std::ostringstream text;
+  if (result.certified)
+    text << "the certified relative error is " << result.certified->relative << ", wanted "
+         << options.mesh.wanted_relative_error << "; ";
+  text << (is_at_finest_level(*solution.triangulation)
+               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
+                 "Mesh/Angular cells, or want less"
+               : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
+  return text.str();
+}
+
+std::string interruption_text(const Result& result) {
+  const std::size_t n_meshes = result.cycles.size();
+  return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
+}
+
+std::string residual_text(const Residuals& residuals) {
+  std::ostringstream text;
+  text << "the conditions of contact and equilibrium hold to " << residuals.largest()
+       << " only, wanted " << wanted_residual << "; rounding the displacement makes "
+       << residuals.round_off
+       << ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
+  return text.str();
+}
+
+/// Completes the result of the last mesh.
+void finish(const Scene& scene, const RunOptions& options, MeshSolution on_mesh,
+            Solution& solution) {
+  Result& result = solution.result;
+  const auto& certificate = options.certificate;
+  if (certificate.error_bound && !solution.certificate)
+    certify_solution(scene, on_mesh, solution);
+  if (options.mesh.wanted_relative_error > 0 && !is_reached(options, result))
+    result.shortfalls.push_back(missing_error_text(options, solution));
+  else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
+           options.contact.method == ContactMethod::active_set)
+    result.shortfalls.push_back(residual_text(result.residuals));
+  if (certificate.load_bounds && result.certified && !result.is_interrupted)
+    try {
+      result.load_bounds =
+          bound_load(scene, options, *solution.space, on_mesh, solution.system, result);
+    } catch (const NotSolved& failure) {
+      result.shortfalls.push_back(
+          left_out_text("the load could not be enclosed", failure, "Certificate/Load bounds"));
+    }
+  for (const std::string& remark : remarks_on(scene, options, result))
+    result.remarks.push_back(remark);
+  solution.displacement = std::move(on_mesh.displacement);
+}
+
+/// Solves, indicates and refines until what @p options want is reached, or cannot be. @p
+/// solution has a mesh. @param is_kept whether what belongs to the last mesh will be used again
+void solve_and_refine(const Scene& scene, const RunOptions& options, Result before,
+                      MPI_Comm communicator, bool is_kept, Solution& solution) {
+  const auto& mesh = options.mesh;
+  Result& result = solution.result;
+  CertificateSchedule schedule(mesh.wanted_relative_error);
+  for (unsigned int cycle = 0;; ++cycle) {
+    if (!solution.space) {
+      const Work::Phase phase(result.work, "space");
+      solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
+    }
+    if (cycle == 0 && is_interrupted(communicator))
+      throw Interrupted("interrupted before the first mesh was solved");
+
+    MeshSolution on_mesh =
+        solve_on_mesh(scene, options, *solution.space,
+                      carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
+                      solution.system, result.work);
+    measure(scene, *solution.space, on_mesh, result);
+    if (!is_kept && !options.certificate.load_bounds)
+      solution.system.stiffness.solver.reset(); // the certificate needs its memory
+
+    const bool is_last =
+        result.is_interrupted || cycle == most_cycles(options.mesh) ||
+        !has_room_to_refine(*solution.triangulation, mesh.marking, most_cells(options));
+    if (!is_last) {
+      std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
+      if (schedule.is_due(result)) {
+        certify_solution(scene, on_mesh, solution);
+        if (solution.certificate) {
+          schedule.note(result);
+          if (mesh.indicator != Indicator::kelly)
+            indicators = larger_of(std::move(indicators), *solution.certificate);
+        }
+      }
+      result.is_interrupted = !is_reached(options, result) && is_interrupted(communicator);
+      if (result.is_interrupted)
+        result.shortfalls.push_back(interruption_text(result));
+      if (!result.is_interrupted && !is_reached(options, result) &&
+          refine(scene, indicators, options, solution))
+        continue;
+    }
+    finish(scene, options, std::move(on_mesh), solution);
+    if (!is_kept)
+      solution.system = {};
+    return;
+  }
+}
+
+/// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
+/// iterative kind a new preconditioner.
+bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
+  constexpr double least_unknowns = 1e5;
+  return (options.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
+         options.contact.method == ContactMethod::active_set &&
+         count_unknowns(options.mesh) > least_unknowns;
+}
+
+/// The scene on a mesh with a sixteenth of the cells, for its pressure.
+RunOptions coarser(RunOptions options) {
+  auto& mesh = options.mesh;
+  for (int halving = 0; halving < 2; ++halving)
+    if (mesh.global_refinements > 0)
+      --mesh.global_refinements;
+    else {
+      mesh.radial_cells = (mesh.radial_cells + 1) / 2;
+      mesh.angular_cells = std::max(3u, (mesh.angular_cells + 1) / 2);
+    }
+  mesh.adaptive_cycles = 0;
+  mesh.wanted_relative_error = 0;
+  options.certificate = {};
+  options.certificate.error_bound = false;
+  return options;
+}
+
+Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+             Solution previous, bool is_kept) {
+  check_simulation(options, count_processes(communicator));
+  Solution solution;
+  solution.triangulation = std::move(previous.triangulation);
+  solution.space = std::move(previous.space);
+  solution.system = std::move(previous.system);
+  Result before;
+  if (begins_coarser(options, communicator))
+    try {
+      before = run(scene, coarser(options), communicator, {}, false).result;
+      solution.result.work = before.work;
+    } catch (const Interrupted&) {
+      throw;
+    } catch (const BadInput&) {
+      // Too coarse for this scene, such as for a short zone: then without a start.
+    } catch (const NotSolved&) {
+      // Likewise.
+    }
+  if (!solution.triangulation) {
+    const Work::Phase phase(solution.result.work, "mesh");
+    solution.triangulation =
+        make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
+  }
+  try {
+    solve_and_refine(scene, options, std::move(before), communicator, is_kept, solution);
+  } catch (const NotEnoughMemory& shortage) {
+    if (solution.result.cycles.empty())
+      throw;
+    const std::string solved = std::to_string(solution.result.cycles.back().dofs);
+    throw NotSolved("after a mesh of " + solved + " unknowns: " + shortage.reason +
+                    "; set Mesh/Most unknowns to " + solved + " to end there");
+  }
+  return solution;
+}
+
+} // namespace
+
+Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
+  return run(scene, options, communicator, {}, false);
+}
+
+Solution simulate_next(const Scene& scene, const RunOptions& options, Solution previous,
+                       MPI_Comm communicator) {
+  return run(scene, options, communicator, std::move(previous), true);
+}
+
+} // namespace rollwave

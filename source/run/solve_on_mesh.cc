@@ -1,0 +1,171 @@
+#include "rollwave/run/solve_on_mesh.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/mesh/assembly.h"
+#include "rollwave/scene/scene.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+MeshFigures describe_mesh(const RingSpace& space) {
+  const auto& handler = space.dof_handler();
+  return {handler.get_fe().degree,
+          static_cast<unsigned int>(handler.get_triangulation().n_global_active_cells()),
+          space.n_unknowns(),
+          static_cast<unsigned int>(space.contact_nodes().size()),
+          space.diameters().first,
+          space.diameters().second};
+}
+
+/// @p field times rounding errors of random sign and usual size.
+FieldVector rounding_errors(const FieldVector& field) {
+  std::minstd_rand random(1);
+  FieldVector errors = field;
+  for (double& entry : errors)
+    entry *= (random() % 2 ? 0.25 : -0.25) * std::numeric_limits<double>::epsilon();
+  return errors;
+}
+
+/// part / whole, where a part of nothing is nothing.
+double relative(double part, double whole) {
+  return part == 0 ? 0 : part / whole;
+}
+
+Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
+                            const ContactSolution& solution, FieldVector stiffness_times_u,
+                            const std::optional<FieldVector>& load, double round_off) {
+  const auto& [displacement, force] = solution.state;
+  FieldVector imbalance = std::move(stiffness_times_u);
+  if (load)
+    imbalance -= *load;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    if (const auto dof = space.contact_nodes()[i].dof; imbalance.in_local_range(dof))
+      imbalance(dof) += force(i);
+
+  double penetration = 0, negative_pressure = 0, highest_pressure = 0;
+  double force_times_gap = 0, force_times_road = 0;
+  for (unsigned int i = 0; i < problem.size(); ++i) {
+    const double gap = problem.road(i) - displacement(i);
+    const double pressure = force(i) / problem.weight(i);
+    penetration = std::max(penetration, -gap);
+    negative_pressure = std::max(negative_pressure, -pressure);
+    highest_pressure = std::max(highest_pressure, std::abs(pressure));
+    force_times_gap += std::abs(force(i) * gap);
+    force_times_road += std::abs(force(i) * problem.road(i));
+  }
+  const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
+  return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
+          relative(negative_pressure, highest_pressure),
+          relative(force_times_gap, force_times_road), relative(round_off, forces)};
+}
+
+std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
+                                         const ContactState& state) {
+  std::vector<ContactRow> rows;
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i),
+                    problem.road(i) - state.displacement(i), state.force(i) / problem.weight(i),
+                    problem.weight(i)});
+  return rows;
+}
+
+std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVector& field) {
+  const std::vector<double> values = space.surface_values(field);
+  std::vector<SurfacePoint> points;
+  for (unsigned int i = 0; i < values.size(); ++i)
+    points.push_back({space.surface_nodes()[i].angle, values[i]});
+  return points;
+}
+
+/// @throws NotSolved where squares of such numbers overflow or there is none
+void require_finite(double squared, const std::string& what) {
+  if (!std::isfinite(squared))
+    throw NotSolved(what + " is beyond what numbers can hold: change Cylinder/Radial force or the "
+                           "radii, which must not be too close to each other either");
+}
+
+/// Makes the load of @p system that of the scene.
+void make_load(const Scene& scene, const RingSpace& space, MeshCache& system, Work& work) {
+  if (!scene.force)
+    system.load.reset();
+  else if (!system.load || system.force_text != scene.force_text) {
+    const Work::Phase phase(work, "assembly");
+    system.load = assemble_load(space, scene);
+    system.force_text = scene.force_text;
+    ++work.load_assemblies;
+  }
+  if (system.load)
+    require_finite(system.load->norm_sqr(), "the load");
+}
+
+} // namespace
+
+MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
+                           const Vector<double>& start, MeshCache& system, Work& work) {
+  MeshSolution solution;
+  make_load(scene, space, system, work);
+  auto& solver = system.stiffness.solver;
+  const std::string& remark = system.stiffness.remark;
+  if (solver)
+    solver->turn_to(scene, system.load, work);
+  else
+    system.stiffness = choose_solver(options.solver.kind, space, scene, system.load, work);
+  solution.problem = make_contact_problem(space, scene);
+  {
+    const Work::Phase phase(work, "contact");
+    solution.contact = solve_contact(*solver, solution.problem, options.contact, start);
+  }
+  if (!remark.empty())
+    solution.contact.remark =
+        remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
+  solution.displacement = solver->displacement_field(solution.contact.state);
+  const Work::Phase phase(work, "measurement");
+  const double round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
+  FieldVector stiffness_times_u = solver->apply(solution.displacement);
+  const double norm_squared = solution.displacement * stiffness_times_u;
+  const double work_of_force = system.load ? solution.displacement * *system.load : 0.;
+  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  require_finite(norm_squared + std::abs(work_of_force), "the energy");
+  solution.residuals = measure_residuals(space, solution.problem, solution.contact,
+                                         std::move(stiffness_times_u), system.load, round_off);
+  return solution;
+}
+
+void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
+             Result& result) {
+  const Work::Phase phase(result.work, "measurement");
+  const auto& [problem, contact, displacement, energy, residuals] = solution;
+  result.mesh = describe_mesh(space);
+  result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);
+  result.energy = energy;
+  result.residuals = residuals;
+  result.contact_rows = tabulate_contact(space, problem, contact.state);
+  result.surface = tabulate_surface(space, displacement);
+  result.history = contact.history;
+  result.rho = contact.rho;
+  result.remarks.clear();
+  if (!contact.remark.empty())
+    result.remarks.push_back(contact.remark);
+  result.shortfalls.clear();
+  result.is_interrupted = contact.shortfall.has_value();
+  if (contact.shortfall)
+    result.shortfalls.push_back(*contact.shortfall);
+  result.cycles.push_back({result.mesh.cells,
+                           result.mesh.dofs,
+                           static_cast<unsigned int>(result.history.size()),
+                           0,
+                           {}});
+}
+
+} // namespace rollwave

@@ -1,0 +1,149 @@
+#include "rollwave/solver/boomeramg.h"
+
+#include "rollwave/base/errors.h"
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Map.h>
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_parcsr_ls.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// The number of the first own row: where the processes before have none, it is not in the map.
+HYPRE_BigInt first_row(HYPRE_Int n_rows, MPI_Comm communicator) {
+  HYPRE_BigInt rows = n_rows, rows_so_far = 0;
+  MPI_Scan(&rows, &rows_so_far, 1, HYPRE_MPI_BIG_INT, MPI_SUM, communicator);
+  return rows_so_far - rows;
+}
+
+} // namespace
+
+struct BoomerAmg::Hypre {
+  /// hypre's objects for a vector.
+  struct Vector {
+    HYPRE_IJVector handle;
+    HYPRE_ParVector vector;
+
+    Vector(MPI_Comm communicator, HYPRE_BigInt first, HYPRE_BigInt last) {
+      HYPRE_IJVectorCreate(communicator, first, last, &handle);
+      HYPRE_IJVectorSetObjectType(handle, HYPRE_PARCSR);
+      HYPRE_IJVectorInitialize(handle);
+      HYPRE_IJVectorAssemble(handle);
+      HYPRE_IJVectorGetObject(handle, reinterpret_cast<void**>(&vector));
+    }
+    ~Vector() { HYPRE_IJVectorDestroy(handle); }
+    Vector(const Vector&) = delete;
+    Vector& operator=(const Vector&) = delete;
+  };
+
+  const HYPRE_Int n_rows;
+  const HYPRE_BigInt first;
+  std::vector<HYPRE_BigInt> rows;
+  Vector rhs, solution;
+  HYPRE_IJMatrix matrix;
+  HYPRE_ParCSRMatrix parallel_matrix;
+  HYPRE_Solver cycle;
+
+  Hypre(const Epetra_CrsMatrix& source, MPI_Comm communicator)
+      : n_rows(source.NumMyRows()), first(first_row(n_rows, communicator)), rows(n_rows),
+        rhs(communicator, first, first + n_rows - 1),
+        solution(communicator, first, first + n_rows - 1) {
+    std::iota(rows.begin(), rows.end(), first);
+    HYPRE_IJMatrixCreate(communicator, first, first + n_rows - 1, first, first + n_rows - 1,
+                         &matrix);
+    HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
+    // Known sizes of both parts of a row spare hypre a copy of the matrix.
+    const int* const column_numbers = source.ColMap().MyGlobalElements();
+    std::vector<HYPRE_BigInt> columns;
+    const auto visit_rows = [&](const auto& visit) {
+      for (HYPRE_Int i = 0; i < n_rows; ++i) {
+        HYPRE_Int n = 0;
+        int* local_columns = nullptr;
+        double* values = nullptr;
+        source.ExtractMyRowView(i, n, values, local_columns);
+        columns.resize(n);
+        for (int k = 0; k < n; ++k)
+          columns[k] = column_numbers[local_columns[k]];
+        visit(i, n, values);
+      }
+    };
+    std::vector<HYPRE_Int> own_sizes(n_rows), foreign_sizes(n_rows);
+    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* /*values*/) {
+      own_sizes[i] = std::count_if(columns.begin(), columns.end(), [this](HYPRE_BigInt column) {
+        return column >= first && column < first + n_rows;
+      });
+      foreign_sizes[i] = n - own_sizes[i];
+    });
+    HYPRE_IJMatrixSetDiagOffdSizes(matrix, own_sizes.data(), foreign_sizes.data());
+    HYPRE_IJMatrixInitialize(matrix);
+    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* values) {
+      HYPRE_IJMatrixSetValues(matrix, 1, &n, &rows[i], columns.data(), values);
+    });
+    HYPRE_IJMatrixAssemble(matrix);
+    HYPRE_IJMatrixGetObject(matrix, reinterpret_cast<void**>(&parallel_matrix));
+    HYPRE_BoomerAMGCreate(&cycle);
+  }
+
+  ~Hypre() {
+    HYPRE_BoomerAMGDestroy(cycle);
+    HYPRE_IJMatrixDestroy(matrix);
+  }
+};
+
+BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, MPI_Comm communicator,
+                     double threshold)
+    : hypre([&] {
+        static const int is_started = HYPRE_Init(); // once in a process
+        (void)is_started;
+        return std::make_unique<Hypre>(matrix.trilinos_matrix(), communicator);
+      }()) {
+  const auto cycle = hypre->cycle;
+  HYPRE_BoomerAMGSetPrintLevel(cycle, 0);
+  HYPRE_BoomerAMGSetMaxIter(cycle, 1);
+  HYPRE_BoomerAMGSetTol(cycle, 0);
+  constexpr int ruge_stueben = 3, classical = 0;
+  HYPRE_BoomerAMGSetCoarsenType(cycle, ruge_stueben);
+  HYPRE_BoomerAMGSetInterpType(cycle, classical);
+  HYPRE_BoomerAMGSetPMaxElmts(cycle, 0); // nothing cut off
+  HYPRE_BoomerAMGSetStrongThreshold(cycle, threshold);
+  HYPRE_BoomerAMGSetMaxRowSum(cycle, 1); // no row is left out as dominated by its diagonal
+  HYPRE_BoomerAMGSetRelaxOrder(cycle, 0);
+  constexpr int forward = 13, backward = 14, symmetric = 6; // Gauss-Seidel
+  constexpr int down = 1, up = 2, coarsest = 3;
+  HYPRE_BoomerAMGSetNumSweeps(cycle, 1);
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, forward, down);
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, backward, up);
+  // Where coarsening ends early, the coarsest level is too large for elimination.
+  HYPRE_BoomerAMGSetCycleRelaxType(cycle, symmetric, coarsest);
+  HYPRE_BoomerAMGSetCycleNumSweeps(cycle, 4, coarsest);
+  HYPRE_BoomerAMGSetup(cycle, hypre->parallel_matrix, hypre->rhs.vector, hypre->solution.vector);
+  if (const int error = Utilities::MPI::max(int(HYPRE_GetError()), communicator)) {
+    HYPRE_ClearAllErrors();
+    throw NotSolved("the multigrid hierarchy could not be made, hypre's error " +
+                    std::to_string(error));
+  }
+}
+
+BoomerAmg::~BoomerAmg() = default;
+
+void BoomerAmg::vmult(FieldVector& u, const FieldVector& rhs) const {
+  u = 0;
+  const auto& rows = hypre->rows;
+  HYPRE_IJVectorSetValues(hypre->rhs.handle, hypre->n_rows, rows.data(), rhs.begin());
+  HYPRE_IJVectorSetValues(hypre->solution.handle, hypre->n_rows, rows.data(), u.begin());
+  HYPRE_BoomerAMGSolve(hypre->cycle, hypre->parallel_matrix, hypre->rhs.vector,
+                       hypre->solution.vector);
+  HYPRE_ClearAllErrors(); // one cycle does not reach the tolerance zero
+  HYPRE_IJVectorGetValues(hypre->solution.handle, hypre->n_rows, rows.data(), u.begin());
+}
+
+} // namespace rollwave

@@ -1,0 +1,210 @@
+#include "rollwave/solver/cholmod_factor.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/base/memory.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+/**
+ * OpenMP's parallel regions, as GCC compiles them, call GOMP_parallel (manual of libgomp,
+ * "Implementing PARALLEL construct"). Here it stands before that of libgomp and leaves the @p
+ * region to the calling thread. CHOLMOD enters one for each of the small blocks that it adds to
+ * another, and libgomp would make a team each time, even of one thread: two fifths of a
+ * factorisation. A CHOLMOD that clang has compiled does not call it.
+ *
+ * No team of OpenMP may be active around a call. An OpenBLAS with OpenMP, whose threads would wait
+ * for each other, asks omp_get_max_threads and enters no region then; nothing else that Rollwave
+ * uses has any.
+ */
+extern "C" {
+__attribute__((visibility("default"))) void GOMP_parallel(void (*region)(void*), void* data,
+                                                          unsigned int /*n_threads*/,
+                                                          unsigned int /*flags*/) {
+  region(data);
+}
+
+__attribute__((visibility("default"))) int omp_get_max_threads() {
+  return 1;
+}
+}
+
+namespace rollwave {
+
+/// CHOLMOD's objects, released together.
+struct CholmodFactor::Cholmod {
+  const bool saves_memory;
+  cholmod_common common;
+  cholmod_sparse* matrix = nullptr;
+  cholmod_factor* factor = nullptr;
+
+  explicit Cholmod(unsigned int n) : saves_memory(n >= many_unknowns) {
+    cholmod_start(&common);
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.print = 0;
+    // In the order given CHOLMOD makes no copy of the matrix, and does not mix the trailing
+    // unknowns with others.
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_NATURAL;
+    common.postorder = 0;
+    if (saves_memory) {
+      // Supernodes are merged less eagerly than by default: a tenth less memory.
+      common.nrelax[1] = 10;
+      common.nrelax[2] = 24;
+      common.zrelax[0] = 0.36;
+      common.zrelax[1] = 0.05;
+      common.zrelax[2] = 0.02;
+    }
+  }
+
+  ~Cholmod() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_free_sparse(&matrix, &common);
+    cholmod_finish(&common);
+    release();
+  }
+
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  /// Gives freed memory back to the system where that matters. Elsewhere the next factorisation
+  /// would wait for every page of it again.
+  void release() const {
+    if (saves_memory)
+      release_freed_memory();
+  }
+
+  void check(const std::string& step) const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
+      throw NotEnoughMemory("the " + step +
+                            " of the system matrix needs more memory than there is");
+    if (common.status == CHOLMOD_NOT_POSDEF)
+      throw NotSolved("the system matrix is not positive definite in floating-point arithmetic "
+                      "(" +
+                      step + "); use cells that are less stretched");
+    if (common.status < 0)
+      throw NotSolved("the " + step + " of the system matrix failed in CHOLMOD, status " +
+                      std::to_string(common.status));
+  }
+
+  /// The lower triangle of the matrix. @throws NotSolved when memory is short.
+  cholmod_sparse* sum_up(const LowerTriplets& triplets, std::size_t n) {
+    cholmod_triplet view = {};
+    view.nrow = view.ncol = n;
+    view.nnz = view.nzmax = triplets.values.size();
+    view.i = const_cast<int*>(triplets.rows.data());
+    view.j = const_cast<int*>(triplets.columns.data());
+    view.x = const_cast<double*>(triplets.values.data());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    cholmod_sparse* const sum = cholmod_triplet_to_sparse(&view, 0, &common);
+    check("assembly");
+    return sum;
+  }
+
+  bool has_pattern_of(const cholmod_sparse& other) const {
+    const auto* const columns = static_cast<const int*>(matrix->p);
+    const auto* const rows = static_cast<const int*>(matrix->i);
+    return std::equal(columns, columns + matrix->ncol + 1, static_cast<const int*>(other.p)) &&
+           std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(other.i));
+  }
+
+  static cholmod_dense view(std::vector<double>& values) {
+    cholmod_dense dense = {};
+    dense.nrow = dense.nzmax = dense.d = values.size();
+    dense.ncol = 1;
+    dense.x = values.data();
+    dense.xtype = CHOLMOD_REAL;
+    dense.dtype = CHOLMOD_DOUBLE;
+    return dense;
+  }
+};
+
+CholmodFactor::CholmodFactor(int n) : cholmod(std::make_unique<Cholmod>(n)), n(n) {}
+
+bool CholmodFactor::set_matrix(const LowerTriplets& triplets) {
+  cholmod_common& common = cholmod->common;
+  cholmod_sparse* before = cholmod->sum_up(triplets, n);
+  std::swap(cholmod->matrix, before);
+  const bool has_known_pattern = before != nullptr && cholmod->has_pattern_of(*before);
+  cholmod_free_sparse(&before, &common);
+  if (has_known_pattern)
+    return false;
+  cholmod_free_factor(&cholmod->factor, &common);
+  cholmod->factor = cholmod_analyze(cholmod->matrix, &common);
+  cholmod->check("analysis");
+  return true;
+}
+
+CholmodFactor::~CholmodFactor() = default;
+
+void CholmodFactor::factorise() {
+  // Mesh, assembly and ordering leave much free memory behind, in pieces that a large factor does
+  // not fit.
+  cholmod_free_work(&cholmod->common);
+  cholmod->release();
+  cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
+  cholmod_free_work(&cholmod->common);
+  cholmod->release();
+  cholmod->check("factorisation");
+}
+
+std::vector<double> CholmodFactor::multiply(std::vector<double> x) const {
+  std::vector<double> product(x.size());
+  cholmod_dense source = Cholmod::view(x), target = Cholmod::view(product);
+  double one[2] = {1, 0}, zero[2] = {0, 0};
+  cholmod_sdmult(cholmod->matrix, 0, one, zero, &source, &target, &cholmod->common);
+  return product;
+}
+
+// cholmod_solve() would make two more copies of a large vector.
+
+std::vector<double> CholmodFactor::forward(std::vector<double> b) {
+  std::vector<double> workspace(cholmod->factor->maxesize);
+  cholmod_dense x = Cholmod::view(b), e = Cholmod::view(workspace);
+  cholmod_super_lsolve(cholmod->factor, &x, &e, &cholmod->common);
+  cholmod->check("solution");
+  return b;
+}
+
+std::vector<double> CholmodFactor::backward(std::vector<double> y) {
+  std::vector<double> workspace(cholmod->factor->maxesize);
+  cholmod_dense x = Cholmod::view(y), e = Cholmod::view(workspace);
+  cholmod_super_ltsolve(cholmod->factor, &x, &e, &cholmod->common);
+  cholmod->check("solution");
+  return y;
+}
+
+dealii::FullMatrix<double> CholmodFactor::trailing_factor(int m) const {
+  const cholmod_factor& factor = *cholmod->factor;
+  const int* const first_columns = static_cast<const int*>(factor.super);
+  const int* const row_starts = static_cast<const int*>(factor.pi);
+  const int* const value_starts = static_cast<const int*>(factor.px);
+  const int* const rows = static_cast<const int*>(factor.s);
+  const double* const values = static_cast<const double*>(factor.x);
+  const int first = n - m;
+
+  dealii::FullMatrix<double> trailing(m, m);
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const int n_rows = row_starts[s + 1] - row_starts[s];
+    for (int column = std::max(first, first_columns[s]); column < first_columns[s + 1]; ++column) {
+      const int local_column = column - first_columns[s];
+      // A supernode is a dense block stored by columns; what lies above its diagonal is undefined.
+      const double* const block_column = values + value_starts[s] + local_column * n_rows;
+      for (int local_row = local_column; local_row < n_rows; ++local_row)
+        trailing(rows[row_starts[s] + local_row] - first, column - first) = block_column[local_row];
+    }
+  }
+  return trailing;
+}
+
+double CholmodFactor::n_factor_entries() const {
+  return cholmod->factor->xsize;
+}
+
+} // namespace rollwave

@@ -1,0 +1,44 @@
+#include "rollwave/solver/choose_solver.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
+#include "rollwave/solver/direct_solver.h"
+#include "rollwave/solver/iterative_solver.h"
+
+namespace rollwave {
+
+using namespace dealii;
+
+SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
+                           const std::optional<FieldVector>& load, Work& work) {
+  SolverChoice choice;
+  std::string direct_shortage;
+  if (!is_alone(space.communicator())) {
+    AssertThrow(kind != SolverKind::direct, ExcInternalError());
+    kind = SolverKind::iterative;
+  }
+  if (kind != SolverKind::iterative)
+    try {
+      choice.solver = std::make_unique<DirectSolver>(space);
+      choice.solver->turn_to(scene, load, work);
+      return choice;
+    } catch (const NotEnoughMemory& shortage) {
+      if (kind == SolverKind::direct)
+        throw;
+      direct_shortage = shortage.reason;
+      choice.solver.reset(); // the other one needs its memory
+      choice.remark = "solved iteratively: " + direct_shortage;
+    }
+  choice.kind = SolverKind::iterative;
+  try {
+    choice.solver = std::make_unique<IterativeSolver>(space);
+    choice.solver->turn_to(scene, load, work);
+  } catch (const NotEnoughMemory& shortage) {
+    if (direct_shortage.empty())
+      throw;
+    throw NotEnoughMemory(direct_shortage + "; " + shortage.reason);
+  }
+  return choice;
+}
+
+} // namespace rollwave

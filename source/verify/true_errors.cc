@@ -1,0 +1,218 @@
+#include "rollwave/verify/true_errors.h"
+
+#include "rollwave/exact/exact_field.h"
+#include "rollwave/mesh/tensor_elements.h"
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/tanh_sinh.hpp>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// A continuous function w on r = b in pieces that are smooth, by increasing angle; the angles are
+/// those of SurfaceFace.
+struct SurfacePiece {
+  double begin;
+  double end;
+  std::function<double(double z)> value;
+};
+using SurfaceFunction = std::vector<SurfacePiece>;
+
+/// int lambda w dz over one piece, where the pressure may begin or end inside.
+double pressure_times(const SurfacePiece& piece, const GegenbauerPressure& pressure) {
+  const double begin = std::max(piece.begin, pressure.middle() - pressure.half_width());
+  const double end = std::min(piece.end, pressure.middle() + pressure.half_width());
+  if (!(begin < end))
+    return 0;
+  const double length = piece.end - piece.begin;
+  const bool has_end = pressure.middle() - pressure.half_width() > piece.begin - length / 4 ||
+                       pressure.middle() + pressure.half_width() < piece.end + length / 4;
+  if (!has_end)
+    return boost::math::quadrature::gauss<double, 20>::integrate(
+        [&](double z) { return pressure(z) * piece.value(z); }, begin, end);
+  // With z = m - w cos(x) the weight sin(x)^(2 nu) is left of (1 - t^2)^(nu - 1/2) dt, which is no
+  // longer singular.
+  const auto angle = [&](double z) {
+    return std::acos(std::clamp((pressure.middle() - z) / pressure.half_width(), -1., 1.));
+  };
+  boost::math::quadrature::tanh_sinh<double> rule;
+  return rule.integrate(
+      [&](double x) {
+        const double z = pressure.middle() - pressure.half_width() * std::cos(x);
+        return pressure.over_weight(z) * pressure.half_width() *
+               std::pow(std::sin(x), 2 * pressure.order()) * piece.value(z);
+      },
+      angle(begin), angle(end), 1e-12);
+}
+
+/// sum_k c_k cos(k x) by Clenshaw's recurrence.
+double cosine_sum(const std::vector<double>& coefficients, double x) {
+  const double factor = 2 * std::cos(x);
+  double first = 0, second = 0;
+  for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
+    const double next = coefficients[k] + factor * first - second;
+    second = first;
+    first = next;
+  }
+  return coefficients[0] + factor / 2 * first - second;
+}
+
+/// The L2 norm of u - u_h. Points of a mesh share few radii, for each of which u is a series over
+/// the angle.
+double l2_error(const RingSpace& space, const FieldVector& field, const ExactSolution& exact) {
+  const auto& element = space.dof_handler().get_fe();
+  const QGauss<2> gauss(element.degree + 2);
+  FEValues<2> values(space.mapping(), element, gauss,
+                     update_values | update_quadrature_points | update_JxW_values);
+  // Round-off in the vertices must not make two radii of one.
+  const double resolution = 1e-10 * space.outer_radius();
+  const auto key = [resolution](double r) { return std::llround(r / resolution); };
+
+  std::map<long long, double> radii;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    values.reinit(cell);
+    for (const Point<2>& point : values.get_quadrature_points())
+      radii.emplace(key(point[0]), point[0]);
+  }
+  std::vector<double> list;
+  for (const auto& [rounded, r] : radii)
+    list.push_back(r);
+  // Modes that the mesh cannot resolve by far are no part of its error.
+  const unsigned int n_modes = 2 * space.surface_nodes().size() + 50;
+  const auto coefficients = ExactField(exact.scene, exact, n_modes).cosine_coefficients(list);
+  std::map<long long, const std::vector<double>*> series;
+  for (const auto& [rounded, r] : radii)
+    series[rounded] = &coefficients[series.size()];
+
+  std::vector<double> displacement(gauss.size());
+  double squared = 0;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    values.reinit(cell);
+    values.get_function_values(field, displacement);
+    for (const unsigned int q : values.quadrature_point_indices()) {
+      const Point<2> point = values.quadrature_point(q);
+      const double u = cosine_sum(*series.at(key(point[0])), point[1] - exact.pressure.middle());
+      squared += point[0] * (u - displacement[q]) * (u - displacement[q]) * values.JxW(q);
+    }
+  }
+  return std::sqrt(Utilities::MPI::sum(squared, space.communicator()));
+}
+
+/// u_h on r = b, one piece for each edge.
+SurfaceFunction trace_of(const RingSpace& space, const FieldVector& field) {
+  SurfaceFunction trace;
+  const auto shapes = lobatto_lagrange(space.dof_handler().get_fe().degree);
+  const auto values = std::make_shared<std::vector<double>>(space.surface_values(field));
+  for (const SurfaceFace& face : space.surface_faces())
+    trace.push_back({face.begin, face.end, [&face, values, shapes](double z) {
+                       const double t = (z - face.begin) / (face.end - face.begin);
+                       double sum = 0;
+                       for (unsigned int i = 0; i < shapes.size(); ++i)
+                         sum += (*values)[face.nodes[i]] * shapes[i].value(t);
+                       return sum;
+                     }});
+  return trace;
+}
+
+/// The feasible displacement v on r = b.
+SurfaceFunction trace_of(const RingSpace& space, const AdmissibleTrace& feasible) {
+  SurfaceFunction trace;
+  for (unsigned int i = 0; i < space.surface_faces().size(); ++i) {
+    const SurfaceFace& face = space.surface_faces()[i];
+    const double length = face.end - face.begin;
+    for (const auto& piece : feasible.pieces(i))
+      trace.push_back({face.begin + piece.t_begin * length, face.begin + piece.t_end * length,
+                       [&feasible, &piece, i, length, begin = face.begin](double z) {
+                         return feasible.displacement(i, piece, (z - begin) / length);
+                       }});
+  }
+  return trace;
+}
+
+/// b int lambda w dz
+double contact_work(const ExactSolution& exact, const SurfaceFunction& w) {
+  double sum = 0;
+  if (exact.half_width > 0)
+    for (const SurfacePiece& piece : w)
+      sum += exact.scene.outer_radius * pressure_times(piece, exact.pressure);
+  return sum;
+}
+
+/// a(u - v, u - v)^(1/2) of a displacement v by its trace, a(v, v) and (f, v).
+double energy_distance(const ExactSolution& exact, const SurfaceFunction& trace,
+                       double norm_squared, double work_of_force) {
+  const double squared =
+      exact.norm_squared - 2 * (work_of_force - contact_work(exact, trace)) + norm_squared;
+  return std::sqrt(std::max(squared, 0.));
+}
+
+/// |lambda - lambda_h|^2 by the rule [.,.]_h, nodes at which lambda is infinite left out.
+double pressure_distance_squared(const ExactSolution& exact, const Result& result) {
+  double squared = 0;
+  for (const ContactRow& row : result.contact_rows) {
+    const double distance =
+        std::abs(std::abs(row.angle - exact.pressure.middle()) - exact.half_width);
+    if (exact.end_exponent >= 0 || distance >= 1e-12)
+      squared += row.weight * std::pow(row.pressure - exact.pressure(row.angle), 2);
+  }
+  return squared;
+}
+
+} // namespace
+
+TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
+                               const Result& result, const std::optional<Certificate>& certificate,
+                               const ExactSolution& exact) {
+  const bool is_cut = exact.end_exponent < 0;
+  const double floor = (is_cut ? 1e-5 : 5e-6) * std::sqrt(exact.norm_squared);
+  const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
+
+  TrueErrors errors;
+  errors.energy_norm =
+      energy_distance(exact, trace_of(space, field), result.energy.norm_squared, work);
+  errors.relative_energy_norm =
+      exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
+  errors.l2_norm = l2_error(space, field, exact);
+  errors.pressure = std::sqrt(pressure_distance_squared(exact, result));
+  errors.force = std::abs(result.patch.force - exact.force);
+  errors.energy = std::abs(result.energy.value - exact.energy);
+  errors.half_width = std::abs(result.patch.half_width() - exact.half_width);
+  // Free ends allow 3/2 at most on uniform meshes, ends cut short by the zone 1/2.
+  const double degree = result.mesh.degree;
+  const bool is_uniform = !space.dof_handler().get_triangulation().has_hanging_nodes();
+  errors.expected_order = !is_uniform ? degree : is_cut ? 0.5 : std::min(degree, 1.5);
+  errors.is_resolved = errors.energy_norm >= floor;
+  if (certificate) {
+    const CertifiedError& certified = certificate->error;
+    const double work_of_feasible = work + certificate->work_of_rest;
+    const double energy = certified.norm_squared / 2 - work_of_feasible;
+    errors.admissible_energy_norm = energy_distance(exact, trace_of(space, certificate->trace),
+                                                    certified.norm_squared, work_of_feasible);
+    // a(v - u, v - u) <= 2 (J(v) - J(u)) for every v in K: what is clearly more is the exact
+    // answer's own error.
+    const double most = std::sqrt(2 * std::max(energy - exact.energy, 0.));
+    if (*errors.admissible_energy_norm > 1.1 * most + floor)
+      errors.is_resolved = false;
+    if (energy > exact.energy)
+      errors.effectivity = certified.energy_norm / std::sqrt(2 * (energy - exact.energy));
+  }
+  return errors;
+}
+
+} // namespace rollwave
