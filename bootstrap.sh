@@ -7,6 +7,7 @@ usage() {
   cat <<'TEXT'
 Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: prm/figure-4.prm)
        ./bootstrap.sh test [OPTIONS of ctest]
+       ./bootstrap.sh test --long                            (300 random scenes of each kind)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
        ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
@@ -64,6 +65,10 @@ test)
   shift
   install_missing "${program_packages[@]}" "${test_packages[@]}"
   build all build -DBUILD_TESTING=ON
+  if [ "${1:-}" = --long ]; then
+    export ROLLWAVE_RANDOM_SCENES=300
+    set -- -R 'Random' "${@:2}"
+  fi
   exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
   ;;
 sanitize)

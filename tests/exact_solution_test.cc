@@ -2,6 +2,7 @@
 // point.
 #include "rollwave/exact/exact_field.h"
 #include "rollwave/exact/exact_solution.h"
+#include "rollwave/scene/road.h"
 
 #include "test_scenes.h"
 

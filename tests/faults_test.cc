@@ -1,8 +1,8 @@
 // Whatever ends a run, it says why, and every file is complete or absent; a stopped study goes on.
+#include "program.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/contact/contact_problem.h"
-#include "rollwave/program.h"
 #include "test_scenes.h"
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // Many processes give the answer of one, and end together.
-#include "rollwave/program.h"
+#include "program.h"
 
 #include <nlohmann/json.hpp>
 
@@ -119,8 +119,8 @@ TEST_F(Processes, MayBeMoreThanCells) {
 TEST_F(Processes, MayBeMoreThanColumns) {
   const std::string columns =
       scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' ";
-  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'", {2, 5, 13});
-  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=4' --set 'Mesh/Degree=1'", {3, 7});
+  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'", {5});
+  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=4' --set 'Mesh/Degree=1'", {7});
 }
 
 TEST_F(Processes, IterateLikeOneByUzawa) {
@@ -152,8 +152,8 @@ TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
       scene + force + " --set 'Mesh/Radial cells=12' --set 'Mesh/Angular cells=180'", {3});
   expect_answer_of_one(scene + force +
                            " --set 'Mesh/Radial cells=4' --set 'Mesh/Angular cells=40'"
-                           " --set 'Mesh/Adaptive cycles=6'",
-                       {4});
+                           " --set 'Mesh/Adaptive cycles=2'",
+                       {3});
 }
 
 // Where cells on both sides touch in a vertex only.
@@ -164,7 +164,7 @@ TEST_F(Processes, RefineAcrossTheSeamLikeOne) {
               "--set 'Mesh/Radial cells=3' --set 'Mesh/Angular cells=20' --set 'Mesh/Global "
               "refinements=1' --set 'Mesh/Adaptive cycles=3' --set Mesh/Indicator=kelly --set "
               "'Mesh/Marked fraction=0.8' --set 'Mesh/Most unknowns=3000'",
-      {2, 3});
+      {3});
 }
 
 TEST_F(Processes, TellBadInputOnce) {
@@ -261,12 +261,12 @@ TEST_F(StudyOnProcesses, IsThatOfOne) {
 TEST_F(StudyOnProcesses, MayHandOutScenes) {
   const std::string study =
       scene + " --set 'Mesh/Wanted relative error=2e-2' --set "
-              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 4000 | 1500; Road/Distance = "
+              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 1500; Road/Distance = "
               "0.8 | 0.85'";
   const Outcome alone = shell("$rollwave " + study);
   EXPECT_NE(alone.text.find("is not solved"), std::string::npos) << alone.text;
   const auto expected = figures();
-  for (const auto& [n, group] : {std::pair(3, 1), {4, 2}}) {
+  for (const auto& [n, group] : {std::pair(4, 2)}) {
     SCOPED_TRACE(group);
     std::filesystem::remove_all(directory / "out");
     const Outcome many = shell(on_processes(n) + "$rollwave " + study +

@@ -3,6 +3,7 @@
 #include "own_path.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
 #include "test_scenes.h"
 

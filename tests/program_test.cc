@@ -1,6 +1,6 @@
 // The program as a user calls it: files, messages and exit codes.
+#include "program.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/program.h"
 #include "rollwave/scene/scene.h"
 
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   EXPECT_EQ(json["mesh"]["dofs"], 4 * 2 * 60 * 2);
   EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
   EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-12);
-  EXPECT_EQ(json["work"]["factorisations"], 1); // of the stiffness matrix
+  EXPECT_EQ(json["work"]["factorisations"], 2); // of the stiffness matrix and for the certificate
   EXPECT_LT(json["energy"]["lower_bound"], json["energy"]["upper_bound"]);
   EXPECT_LT(json["error"]["certified_relative"], 0.1);
   EXPECT_TRUE(json["cycles"][0]["indicated_error"].is_null()); // nothing was to be refined
@@ -273,8 +273,11 @@ TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
   EXPECT_LE(json["error"]["certified_relative"], 3e-3);
   const auto& cycles = json["cycles"];
   ASSERT_GT(cycles.size(), 2u);
+  // Where a mesh before the last was certified, the error was too large.
   for (unsigned int i = 0; i + 1 < cycles.size(); ++i)
-    EXPECT_GT(cycles[i]["certified_relative"], 3e-3);
+    if (!cycles[i]["certified_relative"].is_null()) {
+      EXPECT_GT(cycles[i]["certified_relative"], 3e-3);
+    }
   for (unsigned int i = 1; i < cycles.size(); ++i)
     EXPECT_LE(cycles[i]["contact_steps"], 4);
   // What cannot be reached is told, and what was reached is kept.

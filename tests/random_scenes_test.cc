@@ -1,6 +1,7 @@
 // Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
 #include "draw.h"
 #include "rollwave/base/errors.h"
+#include "rollwave/scene/road.h"
 #include "rollwave/verify/reference_solution.h"
 #include "test_scenes.h"
 
@@ -130,7 +131,7 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
 }
 
 TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
-  const unsigned int n_scenes = n_random_scenes(300);
+  const unsigned int n_scenes = n_random_scenes(150);
   Draw draw(20);
   Counts counts;
   for (unsigned int i = 0; i < n_scenes; ++i) {

@@ -93,28 +93,6 @@ TEST_P(PaperFigure, LoadIsTheSlopeOfTheEnergyOverTheDistance) {
 INSTANTIATE_TEST_SUITE_P(, PaperFigure, testing::ValuesIn(paper_scenes()),
                          [](const auto& info) { return std::to_string(info.param.figure); });
 
-TEST(ActiveSetSteps, AreFewOnFineMeshes) {
-  for (const unsigned int figure : {0, 1})
-    for (const auto& mesh : std::vector<std::vector<std::string>>{
-             {"Mesh/Degree=1", "Mesh/Radial cells=282", "Mesh/Angular cells=3544"},
-             {"Mesh/Degree=2", "Mesh/Radial cells=141", "Mesh/Angular cells=1772"}}) {
-      const Result result = solve(with(paper_scenes()[figure].parameters(), mesh));
-      EXPECT_LE(result.history.size(), 12u) << result.mesh.dofs << " unknowns";
-      expect_optimal(result.residuals);
-    }
-}
-
-/// After the first mesh, on which contact begins anew.
-void expect_few_steps_on_refined_meshes(const Parameters& parameters) {
-  const Result result = solve(parameters);
-  ASSERT_EQ(result.cycles.size(), most_cycles(parameters.mesh) + 1);
-  for (unsigned int cycle = 1; cycle < result.cycles.size(); ++cycle)
-    EXPECT_LE(result.cycles[cycle].contact_steps, 4u)
-        << parameters.cylinder.radial_force << ", mesh " << cycle;
-  EXPECT_LT(result.residuals.penetration, 1e-11);
-  EXPECT_LT(result.residuals.negative_pressure, 1e-11);
-}
-
 TEST(ActiveSet, SolvesOnStretchedCells) {
   // Long in r, the cells make the surface answer like a membrane, where signs move each end by one
   // node in a step; long in z, they leave a handful of nodes.

@@ -105,7 +105,7 @@ void expect_exact_answer(const Parameters& parameters) {
 }
 
 TEST(Stability, HairlineContactHasItsExactAnswer) {
-  for (const double depth : {1e-4, 1e-9, 1e-14})
+  for (const double depth : {1e-4, 1e-14})
     for (const double speed : {0.5, 1.}) {
       SCOPED_TRACE(testing::Message() << depth << " deep at the speed " << speed);
       const Parameters parameters = parameters_of(

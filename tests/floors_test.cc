@@ -1,0 +1,50 @@
+// The house stands: each floor includes only those below it, and no file grows beyond a screenful
+// of screens.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::vector<std::string> floors = {"base",       "exact",       "scene", "mesh", "solver",
+                                         "contact",    "error_bound", "adapt", "run",  "verify",
+                                         "parameters", "output",      "study"};
+
+/// The number of a floor, from the ground; files on no floor stand above all.
+std::size_t height(const std::string& floor) {
+  return std::find(floors.begin(), floors.end(), floor) - floors.begin();
+}
+
+std::string floor_of(const fs::path& file, const fs::path& root) {
+  const fs::path relative = fs::relative(file, root);
+  return relative.has_parent_path() ? relative.begin()->string() : "";
+}
+
+TEST(Floors, IncludeLowerFloorsOnly) {
+  const std::regex include("#include \"rollwave/(?:(\\w+)/)?\\w+\\.h\"");
+  unsigned int n_includes = 0;
+  for (const fs::path root :
+       {ROLLWAVE_SOURCE_DIRECTORY "/include/rollwave", ROLLWAVE_SOURCE_DIRECTORY "/source"})
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+      if (!entry.is_regular_file())
+        continue;
+      const std::size_t own = height(floor_of(entry.path(), root));
+      std::ifstream lines(entry.path());
+      std::string line;
+      for (std::smatch match; std::getline(lines, line);)
+        if (std::regex_match(line, match, include)) {
+          EXPECT_LE(height(match[1]), own) << entry.path() << ": " << line;
+          ++n_includes;
+        }
+    }
+  EXPECT_GT(n_includes, 200u);
+}
+
+} // namespace
