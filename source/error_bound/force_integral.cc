@@ -9,6 +9,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -191,6 +192,38 @@ struct RadialPoints {
   unsigned int n_on_piece; ///< points of the Gauss rule on each piece of the interval
 };
 
+/// The mean over the angular interval of a cell of int (G - G_h)^2 / r dr, as the points tell.
+/// @param integral has the values of G_h on the cell
+/// @param ends lines at both ends of the interval
+double mean_square_missed(const ForceIntegral& integral, unsigned int cell,
+                          const RadialShapes& radial, const RadialPoints& points,
+                          const std::array<Line, 2>& ends) {
+  const QGauss<1>& angular = integral.rule();
+  const unsigned int n_r = radial.r.size();
+  const double* const of_cell = integral.on_line(cell, 0);
+  const HighestMode along_z(angular), along_r{QGauss<1>(points.n_on_piece)};
+  double mean = 0;
+  for (unsigned int q = 0; q < n_r; ++q)
+    mean += radial.weight_over_r[q] * along_z.square(of_cell + q, n_r);
+  for (unsigned int piece = 0; piece < n_r; piece += points.n_on_piece) {
+    double measure = 0;
+    for (unsigned int q = piece; q < piece + points.n_on_piece; ++q)
+      measure += radial.weight_over_r[q];
+    for (unsigned int p = 0; p < angular.size(); ++p)
+      mean += measure * angular.weight(p) * along_r.square(of_cell + p * n_r + piece, 1);
+  }
+  std::vector<double> line;
+  for (const unsigned int end : {0U, 1U}) {
+    integral.on_line_at(cell, end == 0 ? inside : 1 - inside, line);
+    for (unsigned int q = 0; q < n_r; ++q) {
+      const auto& place = points.for_ends[q];
+      const double missed = std::abs(ends[end].at(place) - line[q]) + ends[end].doubt_at(place);
+      mean += radial.weight_over_r[q] * missed * missed;
+    }
+  }
+  return mean;
+}
+
 } // namespace
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
@@ -243,7 +276,6 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
   const RadialIntervals intervals(radii, QGauss<1>(angular.size())),
       with_ends(radii, QGaussLobatto<1>(angular.size() + 1));
   IntervalMap<RadialPoints> known_points;
-  const HighestMode along_z(angular);
   std::string refusal;
   errors_squared.resize(first.size());
   double sum = 0;
@@ -264,9 +296,7 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
     std::vector<Line> lines;
     for (const Point<1>& point : angular.get_points())
       lines.push_back(line_at(intervals, point[0]));
-    const std::pair<double, Line> ends[] = {{inside, line_at(with_ends, inside)},
-                                            {1 - inside, line_at(with_ends, 1 - inside)}};
-    std::vector<double> line;
+    const std::array<Line, 2> ends = {line_at(with_ends, inside), line_at(with_ends, 1 - inside)};
     for (const Cell& cell : cells) {
       const Point<2> low = cell->vertex(0), high = cell->vertex(3);
       const RadialShapes& radial = shapes.on(low[0], high[0]);
@@ -281,27 +311,7 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
         for (const auto& place : points.places)
           values.push_back(on_line.at(place));
 
-      double mean = 0;
-      const double* const of_cell = &values[first[number]];
-      for (unsigned int q = 0; q < n_r; ++q)
-        mean += radial.weight_over_r[q] * along_z.square(of_cell + q, n_r);
-      for (const auto& [t, end] : ends) {
-        on_line_at(number, t, line);
-        for (unsigned int q = 0; q < n_r; ++q) {
-          const auto& place = points.for_ends[q];
-          mean += radial.weight_over_r[q] *
-                  std::pow(std::abs(end.at(place) - line[q]) + end.doubt_at(place), 2);
-        }
-      }
-      const HighestMode along_r{QGauss<1>(points.n_on_piece)};
-      for (unsigned int piece = 0; piece < n_r; piece += points.n_on_piece) {
-        double measure = 0;
-        for (unsigned int q = piece; q < piece + points.n_on_piece; ++q)
-          measure += radial.weight_over_r[q];
-        for (unsigned int p = 0; p < angular.size(); ++p)
-          mean += measure * angular.weight(p) * along_r.square(of_cell + p * n_r + piece, 1);
-      }
-      errors_squared[number] = length * mean;
+      errors_squared[number] = length * mean_square_missed(*this, number, radial, points, ends);
       sum += errors_squared[number];
     }
   }

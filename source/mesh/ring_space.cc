@@ -59,7 +59,8 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
       for (const auto& entry : line.entries)
         relevant.add_index(entry.first);
   partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
-  find_surface_nodes(scene);
+  find_surface(scene);
+  find_contact_nodes(scene);
   look_over_cells();
 }
 
@@ -83,65 +84,56 @@ void RingSpace::look_over_cells() {
                                 Utilities::MPI::max(largest, communicator())};
 }
 
-void RingSpace::find_surface_nodes(const Scene& scene) {
-  const unsigned int n = element.degree + 1;
-  const QGaussLobatto<1> lobatto(n);
-  FEFaceValues<2> face_values(cartesian, element, lobatto,
+/// A node of an edge on r = b.
+struct RingSpace::EdgeNode {
+  double begin; ///< angle at which the edge begins
+  double angle, weight;
+  types::global_dof_index dof;
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned int) {
+    archive& begin& angle& weight& dof;
+  }
+};
+
+/// The nodes of all edges of all processes, edge by edge from the seam on.
+std::vector<RingSpace::EdgeNode> RingSpace::gather_edges() const {
+  FEFaceValues<2> face_values(cartesian, element, QGaussLobatto<1>(element.degree + 1),
                               update_values | update_quadrature_points | update_JxW_values);
   std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-
-  // The nodes of the own edges, n for each: angles, weights and numbers.
-  std::vector<double> own_begins, own_angles, own_weights;
-  std::vector<types::global_dof_index> own_dofs;
-  for (const auto& cell : handler.active_cell_iterators())
-    if (cell->is_locally_owned())
-      for (const auto& face : cell->face_iterators())
-        if (face->at_boundary() && face->boundary_id() == surface_id) {
-          face_values.reinit(cell, face);
-          cell->get_dof_indices(dofs);
-          own_begins.push_back(cell->vertex(1)[1]);
-          for (const unsigned int q : face_values.quadrature_point_indices())
-            for (const unsigned int i : face_values.dof_indices())
-              // The quadrature points are the nodes, where one shape function is 1, the others 0.
-              if (face_values.shape_value(i, q) > 0.5) {
-                // A node on the seam counts as the node that its constraint equates it with.
-                types::global_dof_index dof = dofs[i];
-                if (const auto* entries = affine_constraints.get_constraint_entries(dof))
-                  dof = entries->front().first;
-                own_dofs.push_back(dof);
-                own_angles.push_back(face_values.quadrature_point(q)[1]);
-                own_weights.push_back(scene.outer_radius * face_values.JxW(q));
-              }
+  std::vector<EdgeNode> own, all;
+  for (const auto& cell : handler.active_cell_iterators()) {
+    if (!cell->is_locally_owned() || !cell->at_boundary(1))
+      continue;
+    face_values.reinit(cell, 1);
+    cell->get_dof_indices(dofs);
+    for (const unsigned int q : face_values.quadrature_point_indices())
+      for (const unsigned int i : face_values.dof_indices())
+        // The quadrature points are the nodes, where one shape function is 1, the others 0.
+        if (face_values.shape_value(i, q) > 0.5) {
+          // A node on the seam counts as the node that its constraint equates it with.
+          const auto* const entries = affine_constraints.get_constraint_entries(dofs[i]);
+          own.push_back({cell->vertex(1)[1], face_values.quadrature_point(q)[1],
+                         radius * face_values.JxW(q), entries ? entries->front().first : dofs[i]});
         }
-  const auto all_begins = Utilities::MPI::all_gather(communicator(), own_begins);
-  const auto all_angles = Utilities::MPI::all_gather(communicator(), own_angles);
-  const auto all_weights = Utilities::MPI::all_gather(communicator(), own_weights);
-  const auto all_dofs = Utilities::MPI::all_gather(communicator(), own_dofs);
+  }
+  for (const auto& some : Utilities::MPI::all_gather(communicator(), own))
+    all.insert(all.end(), some.begin(), some.end());
+  std::stable_sort(all.begin(), all.end(), [](const EdgeNode& left, const EdgeNode& right) {
+    return left.begin < right.begin;
+  });
+  return all;
+}
 
-  // The edges of all processes, from the seam on.
-  struct Edge {
-    double begin;
-    unsigned int process, number;
-    bool operator<(const Edge& other) const { return begin < other.begin; }
-  };
-  std::vector<Edge> edges;
-  for (unsigned int process = 0; process < all_begins.size(); ++process)
-    for (unsigned int k = 0; k < all_begins[process].size(); ++k)
-      edges.push_back({all_begins[process][k], process, k});
-  std::sort(edges.begin(), edges.end());
-
+void RingSpace::find_surface(const Scene& scene) {
   const double middle = (scene.zone_begin + scene.zone_end) / 2;
   const auto turn = [middle](double z) {
     return 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);
   };
+  const std::vector<EdgeNode> edges = gather_edges();
   std::map<types::global_dof_index, SurfaceNode> nodes;
-  for (const Edge& edge : edges)
-    for (unsigned int k = edge.number * n; k < (edge.number + 1) * n; ++k) {
-      const auto dof = all_dofs[edge.process][k];
-      const double z = all_angles[edge.process][k];
-      auto& node = nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second;
-      node.weight += all_weights[edge.process][k];
-    }
+  for (const auto& [begin, z, weight, dof] : edges)
+    nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second.weight += weight;
   for (const auto& [dof, node] : nodes)
     surface.push_back(node);
   std::sort(surface.begin(), surface.end(),
@@ -150,17 +142,17 @@ void RingSpace::find_surface_nodes(const Scene& scene) {
   for (unsigned int i = 0; i < surface.size(); ++i)
     number_of_dof[surface[i].dof] = i;
 
-  for (const Edge& edge : edges) {
-    const unsigned int first = edge.number * n;
-    const auto& angles = all_angles[edge.process];
-    const double turned = turn((angles[first] + angles[first + n - 1]) / 2);
-    SurfaceFace face = {angles[first] - turned, angles[first + n - 1] - turned, {}};
-    for (unsigned int k = first; k < first + n; ++k)
-      face.nodes.push_back(number_of_dof.at(all_dofs[edge.process][k]));
-    face_from[edge.begin] = faces.size();
-    faces.push_back(std::move(face));
+  for (unsigned int first = 0; first < edges.size(); first += element.degree + 1) {
+    const double begin = edges[first].angle, end = edges[first + element.degree].angle,
+                 turned = turn((begin + end) / 2);
+    face_from[edges[first].begin] = faces.size();
+    faces.push_back({begin - turned, end - turned, {}});
+    for (unsigned int k = 0; k <= element.degree; ++k)
+      faces.back().nodes.push_back(number_of_dof.at(edges[first + k].dof));
   }
+}
 
+void RingSpace::find_contact_nodes(const Scene& scene) {
   for (unsigned int i = 0; i < surface.size(); ++i)
     if (scene.is_in_zone(surface[i].angle)) {
       if (contact.empty())

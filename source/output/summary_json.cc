@@ -8,27 +8,30 @@
 
 namespace rollwave {
 
-std::string summary_json(const Scene& scene, const Parameters& parameters, const Result& result) {
-  using Json = nlohmann::ordered_json;
-  Json json;
-  json["program"] = version_text();
-  if (!result.shortfalls.empty())
-    json["shortfall"] = shortfall_text(result);
-  json["scene"] = {{"inner_radius", parameters.cylinder.inner_radius},
-                   {"outer_radius", parameters.cylinder.outer_radius},
-                   {"angular_velocity", parameters.cylinder.angular_velocity},
-                   {"road_distance", parameters.road.distance},
-                   {"radial_force", parameters.cylinder.radial_force},
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_or_null(bool exists, double number) {
+  return exists ? Json(number) : Json(nullptr);
+}
+
+void add_scene_and_mesh(const Scene& scene, const RunOptions& options, const Result& result,
+                        Json& json) {
+  json["scene"] = {{"inner_radius", options.cylinder.inner_radius},
+                   {"outer_radius", options.cylinder.outer_radius},
+                   {"angular_velocity", options.cylinder.angular_velocity},
+                   {"road_distance", options.road.distance},
+                   {"radial_force", options.cylinder.radial_force},
                    {"zone_begin", scene.zone_begin},
                    {"zone_end", scene.zone_end}};
   json["mesh"] = {{"degree", result.mesh.degree}, {"cells", result.mesh.cells},
                   {"dofs", result.mesh.dofs},     {"contact_nodes", result.mesh.contact_nodes},
                   {"h_min", result.mesh.h_min},   {"h_max", result.mesh.h_max}};
+}
 
+void add_contact(const Result& result, Json& json) {
   const ContactPatch& patch = result.patch;
-  const auto number_or_null = [](bool exists, double number) {
-    return exists ? Json(number) : Json(nullptr);
-  };
   const auto [left, right] = patch.ends.value_or(std::pair(0., 0.));
   json["contact"] = {{"left_end", number_or_null(patch.ends.has_value(), left)},
                      {"right_end", number_or_null(patch.ends.has_value(), right)},
@@ -42,6 +45,9 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
     json["contact"]["work_conjugate_load_lower_bound"] = result.load_bounds->lower;
     json["contact"]["work_conjugate_load_upper_bound"] = result.load_bounds->upper;
   }
+}
+
+void add_energy_and_errors(const Result& result, Json& json) {
   json["energy"] = {{"value", result.energy.value}, {"norm_squared", result.energy.norm_squared}};
   if (result.certified) {
     json["energy"]["lower_bound"] = result.certified->lower_bound;
@@ -74,7 +80,9 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
                        {"negative_pressure", result.residuals.negative_pressure},
                        {"complementarity", result.residuals.complementarity},
                        {"round_off", result.residuals.round_off}};
+}
 
+void add_cycles(const RunOptions& options, const Result& result, Json& json) {
   for (const CycleFigures& cycle : result.cycles)
     json["cycles"].push_back(
         {{"cells", cycle.cells},
@@ -84,16 +92,15 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
          {"certified_relative", number_or_null(cycle.certified && std::isfinite(*cycle.certified),
                                                cycle.certified.value_or(0))}});
 
-  const bool is_uzawa = parameters.contact.method == ContactMethod::uzawa;
+  const bool is_uzawa = options.contact.method == ContactMethod::uzawa;
   json["iterations"] = {{"method", is_uzawa ? "uzawa" : "active set"},
                         {"contact", result.history.size()},
                         {"linear", result.work.linear_iterations}};
   if (is_uzawa)
     json["iterations"]["rho"] = result.rho;
-  if (!result.remarks.empty())
-    json["remarks"] = result.remarks;
+}
 
-  const Work& work = result.work;
+void add_work(const Work& work, Json& json) {
   json["work"] = {{"load_assemblies", work.load_assemblies},
                   {"stiffness_assemblies", work.stiffness_assemblies},
                   {"orderings", work.orderings},
@@ -107,7 +114,23 @@ std::string summary_json(const Scene& scene, const Parameters& parameters, const
   for (const auto& [phase, seconds] : work.seconds())
     json["seconds"][phase] = seconds;
   json["seconds"]["total"] = work.total_seconds();
+}
 
+} // namespace
+
+std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result) {
+  Json json;
+  json["program"] = version_text();
+  if (!result.shortfalls.empty())
+    json["shortfall"] = shortfall_text(result);
+  add_scene_and_mesh(scene, options, result, json);
+  add_contact(result, json);
+  add_energy_and_errors(result, json);
+  add_cycles(options, result, json);
+  if (!result.remarks.empty())
+    json["remarks"] = result.remarks;
+
+  add_work(result.work, json);
   json["peak_memory_mib"] = result.peak_memory_mib;
   return json.dump(2) + "\n";
 }

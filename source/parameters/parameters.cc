@@ -90,12 +90,12 @@ std::vector<OutputFile> parse_files(const std::string& text) {
   return files;
 }
 
-/// Every key of the program: name, default, range, unit and text, each in one statement.
-void declare(Declarations& keys, Parameters& p) {
-  const double tiny = std::numeric_limits<double>::min();
-  const double huge = std::numeric_limits<double>::max();
-  const unsigned int most = std::numeric_limits<int>::max();
+/// Bounds of numbers that have no other.
+constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double huge = std::numeric_limits<double>::max();
+constexpr unsigned int most = std::numeric_limits<int>::max();
 
+void declare_cylinder(Declarations& keys, Parameters& p) {
   keys.enter("Cylinder");
   keys.add_number("Inner radius", p.cylinder.inner_radius, tiny, huge,
                   "Radius a of the rigid hub: a length, greater than 0, at least 1e-150 of b.");
@@ -110,7 +110,9 @@ void declare(Declarations& keys, Parameters& p) {
   keys.add_text("Radial force", p.cylinder.radial_force,
                 "Radial force density f: an expression in r and z, a <= r <= b, 0 <= z < 2 pi.");
   keys.leave();
+}
 
+void declare_road(Declarations& keys, Parameters& p) {
   keys.enter("Road");
   keys.add_number("Distance", p.road.distance, tiny, huge,
                   "Distance c of the flat road below the axle: a length, greater than a; less than "
@@ -123,7 +125,9 @@ void declare(Declarations& keys, Parameters& p) {
       "surface without contact would be beyond the road, and two cells more, but never beyond "
       "phi < b; where the force is not uniform, it is where phi < b.");
   keys.leave();
+}
 
+void declare_mesh(Declarations& keys, Parameters& p) {
   keys.enter("Mesh");
   keys.add_count("Degree", p.mesh.degree, 1, highest_degree,
                  "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.");
@@ -163,7 +167,9 @@ void declare(Declarations& keys, Parameters& p) {
                  "A mesh with more unknowns than this number is refused; adaptive refinement ends "
                  "below it.");
   keys.leave();
+}
 
+void declare_certificate(Declarations& keys, Parameters& p) {
   keys.enter("Certificate");
   keys.add_choice<bool>("Error bound", p.certificate.error_bound,
                         {{"false", false}, {"true", true}},
@@ -176,7 +182,9 @@ void declare(Declarations& keys, Parameters& p) {
                         "both sides, by the certified energies of two more road distances; costs "
                         "two more scenes on the last mesh.");
   keys.leave();
+}
 
+void declare_contact(Declarations& keys, Parameters& p) {
   keys.enter("Contact");
   keys.add_choice<ContactMethod>(
       "Method", p.contact.method,
@@ -203,7 +211,9 @@ void declare(Declarations& keys, Parameters& p) {
   keys.add_count("Most steps", p.contact.most_steps, 1, most,
                  "The contact iteration gives up after this number of steps, 1 or more.");
   keys.leave();
+}
 
+void declare_solver(Declarations& keys, Parameters& p) {
   keys.enter("Solver");
   keys.add_choice<SolverKind>(
       "Kind", p.solver.kind,
@@ -214,7 +224,9 @@ void declare(Declarations& keys, Parameters& p) {
       "mesh. \"iterative\": conjugate gradients with algebraic multigrid, slower but with less "
       "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
   keys.leave();
+}
 
+void declare_study(Declarations& keys, Parameters& p) {
   keys.enter("Study");
   keys.add(
       "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
@@ -241,7 +253,9 @@ void declare(Declarations& keys, Parameters& p) {
                  "runs are made at the same time; one process hands them out. 0: all processes "
                  "make each run together.");
   keys.leave();
+}
 
+void declare_output(Declarations& keys, Parameters& p) {
   keys.enter("Output");
   keys.add_text("Directory", p.output.directory, "The directory of the files, made when missing.");
   keys.add(
@@ -250,6 +264,18 @@ void declare(Declarations& keys, Parameters& p) {
       "The files to write: any of summary (summary.json), contact (contact.csv), parameters "
       "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study).");
   keys.leave();
+}
+
+/// Every key of the program: name, default, range, unit and text, each in one statement.
+void declare(Declarations& keys, Parameters& p) {
+  declare_cylinder(keys, p);
+  declare_road(keys, p);
+  declare_mesh(keys, p);
+  declare_certificate(keys, p);
+  declare_contact(keys, p);
+  declare_solver(keys, p);
+  declare_study(keys, p);
+  declare_output(keys, p);
 
   keys.refuse("Study", "Continue meshes", "adaptive runs begin anew; leave the key out");
   keys.refuse("Study", "Reference unknowns",

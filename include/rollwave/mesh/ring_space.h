@@ -121,7 +121,10 @@ public:
   FieldVector make_field() const { return FieldVector(partitioner); }
 
 private:
-  void find_surface_nodes(const Scene& scene);
+  struct EdgeNode;
+  std::vector<EdgeNode> gather_edges() const;
+  void find_surface(const Scene& scene);
+  void find_contact_nodes(const Scene& scene);
   void look_over_cells();
   std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
                                 const FieldVector& field) const;
