@@ -1,5 +1,5 @@
 // A banded matrix against the same matrix in full.
-#include "rollwave/error_bound/banded_cholesky.h"
+#include "rollwave/solver/banded_cholesky.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>

@@ -6,7 +6,7 @@
 #include "manufactured_scene.h"
 #include "rollwave/base/work.h"
 #include "rollwave/error_bound/admissible_pressure.h"
-#include "rollwave/error_bound/stress_function_basis.h"
+#include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/exact/uniform_force.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/run/solve_on_mesh.h"

@@ -18,8 +18,12 @@ using namespace rollwave;
 namespace {
 
 std::string refusal_of_setting(const std::string& assignment) {
+  Parameters parameters;
   try {
-    make_scene(parameters_of({assignment}));
+    parameters = parameters_of({assignment});
+    make_scene(parameters);
+  } catch (const BadValue& value) {
+    return refusal(parameters.settings, value);
   } catch (const BadInput& error) {
     return error.what();
   }
@@ -60,6 +64,14 @@ TEST(Parameters, MessagesTellPlaceKeyValueAndWhatIsWanted) {
   const std::string message = refusal_of_setting("Cylinder/Outer radius=0.25");
   for (const char* part : {"test", "Cylinder", "Outer radius", "0.25", "inner radius 0.5"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+// Keys whose mechanism is gone say what to do instead.
+TEST(Parameters, RefuseKeysThatAreGone) {
+  for (const char* setting : {"Study/Continue meshes=true", "Study/Reference unknowns=1000"})
+    EXPECT_NE(refusal_of_setting(setting).find("this key is gone; "), std::string::npos);
+  EXPECT_NE(refusal_of_setting("Output/Files=mesh").find("is gone: see the cells"),
+            std::string::npos);
 }
 
 class RefusedSetting : public testing::TestWithParam<const char*> {};

@@ -1,6 +1,7 @@
 // Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
 #include "manufactured_scene.h"
 #include "rollwave/adapt/marking.h"
+#include "rollwave/adapt/refinement_flags.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"

@@ -79,7 +79,7 @@ private:
   const unsigned int n; ///< nodes on each side of a cell
   const QGauss<1> gauss;
   const LineShapes inside, ends;
-  const std::array<LineShapes, 2> halves;
+  const std::vector<LineShapes> halves;
   const CellLines lines;
   LexicographicDofs dofs;
   ForceMoment moment;

@@ -59,4 +59,20 @@ unsigned int to_count(const std::string& text, unsigned int least, unsigned int 
   return static_cast<unsigned int>(number);
 }
 
+std::string in_tex(const std::string& text) {
+  std::string tex;
+  for (const char c : text)
+    if (c == '\\')
+      tex += "\\textbackslash{}";
+    else if (std::string("&%$#_{}").find(c) != std::string::npos)
+      tex += std::string("\\") + c;
+    else if (c == '^' || c == '~')
+      tex += std::string("\\") + c + "{}";
+    else if (c == '<' || c == '>' || c == '|')
+      tex += std::string("$") + c + '$';
+    else
+      tex += c;
+  return tex;
+}
+
 } // namespace rollwave

@@ -2,6 +2,7 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
+#include "rollwave/error_bound/line_integral.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/mpi.h>
@@ -9,7 +10,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -25,117 +25,6 @@ QGauss<1> angular_rule(const Scene& scene, unsigned int degree) {
 }
 
 namespace {
-
-/// Where a force jumps on a line of the mesh, its cells end on their own side of it by this share.
-constexpr double inside = 1e-8;
-
-/// The intervals between given radii, on each of which r f is taken for the polynomial through the
-/// points of a rule.
-class RadialIntervals {
-public:
-  RadialIntervals(const std::vector<double>& radii, const Quadrature<1>& rule)
-      : radii(radii), rule(rule), highest(rule.size(), 2) {
-    for (const auto& polynomial : Polynomials::generate_complete_Lagrange_basis(rule.get_points()))
-      primitives.push_back(polynomial.primitive());
-    const QGauss<1> gauss(rule.size());
-    const auto lagrange = Polynomials::generate_complete_Lagrange_basis(rule.get_points());
-    for (const unsigned int mode : {0U, 1U}) {
-      const Polynomials::Legendre legendre(rule.size() - 1 - mode);
-      for (unsigned int i = 0; i < rule.size(); ++i)
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-          highest(i, mode) += gauss.weight(q) * legendre.value(gauss.point(q)[0]) *
-                              lagrange[i].value(gauss.point(q)[0]);
-    }
-  }
-
-  unsigned int size() const { return radii.size() - 1; }
-  unsigned int n_points() const { return rule.size(); }
-  double begin(unsigned int k) const { return radii[k]; }
-  double length(unsigned int k) const { return radii[k + 1] - radii[k]; }
-
-  /// Within the interval, lest the force has jumped at its end.
-  double point(unsigned int k, unsigned int i) const {
-    return radii[k] + length(k) * std::clamp(rule.point(i)[0], inside, 1 - inside);
-  }
-  double weight(unsigned int k, unsigned int i) const { return length(k) * rule.weight(i); }
-
-  /// The coefficients of the two highest Legendre polynomials, orthonormal on [0, 1], in the
-  /// polynomial with these values at the points: their absolute sum.
-  double highest_modes(const double* values) const {
-    double first = 0, second = 0;
-    for (unsigned int i = 0; i < rule.size(); ++i) {
-      first += highest(i, 0) * values[i];
-      second += highest(i, 1) * values[i];
-    }
-    return std::abs(first) + std::abs(second);
-  }
-
-  /// A radius, with the weights that integrate from there to the end of its interval.
-  struct Place {
-    unsigned int interval;
-    std::vector<double> weights;
-  };
-
-  std::vector<Place> places(const std::vector<double>& at) const {
-    std::vector<Place> result;
-    for (const double r : at) {
-      const auto end = std::upper_bound(radii.begin() + 1, radii.end() - 1, r);
-      const unsigned int k = end - radii.begin() - 1;
-      const double t = (r - radii[k]) / length(k);
-      result.push_back({k, {}});
-      for (const auto& primitive : primitives)
-        result.back().weights.push_back(length(k) * (primitive.value(1.) - primitive.value(t)));
-    }
-    return result;
-  }
-
-private:
-  std::vector<double> radii; ///< increasing
-  Quadrature<1> rule;
-  FullMatrix<double> highest;
-  std::vector<Polynomials::Polynomial<double>> primitives;
-};
-
-using Places = std::vector<RadialIntervals::Place>;
-
-/// G on one line z = const.
-class Line {
-public:
-  /// @param moment r f on the line
-  template <typename Moment>
-  Line(const RadialIntervals& intervals, double innermost_radius, const Moment& moment)
-      : n(intervals.n_points()), moments(n * intervals.size()), beyond(intervals.size()),
-        doubt(intervals.size()) {
-    double sum = 0, sum_of_doubts = 0;
-    for (unsigned int k = intervals.size(); k-- > 0;) {
-      beyond[k] = sum;
-      for (unsigned int i = 0; i < n; ++i) {
-        moments[n * k + i] = moment(intervals.point(k, i));
-        sum += intervals.weight(k, i) * moments[n * k + i];
-      }
-      sum_of_doubts += intervals.length(k) * intervals.highest_modes(&moments[n * k]);
-      doubt[k] = sum_of_doubts;
-      if (intervals.begin(k) <= innermost_radius)
-        break;
-    }
-  }
-
-  double at(const RadialIntervals::Place& place) const {
-    double sum = beyond[place.interval];
-    for (unsigned int i = 0; i < n; ++i)
-      sum += place.weights[i] * moments[n * place.interval + i];
-    return sum;
-  }
-
-  /// By how much at() may be off: a jump within an interval is no more than its highest modes.
-  double doubt_at(const RadialIntervals::Place& place) const { return doubt[place.interval]; }
-
-private:
-  const unsigned int n;
-  std::vector<double> moments; ///< at the points of all intervals
-  std::vector<double> beyond;  ///< G at the end of each interval
-  std::vector<double> doubt;   ///< from the begin of each interval on
-};
 
 using Interval = std::pair<double, double>;
 
@@ -197,7 +86,7 @@ struct RadialPoints {
 /// @param ends lines at both ends of the interval
 double mean_square_missed(const ForceIntegral& integral, unsigned int cell,
                           const RadialShapes& radial, const RadialPoints& points,
-                          const std::array<Line, 2>& ends) {
+                          const std::vector<Line>& ends) {
   const QGauss<1>& angular = integral.rule();
   const unsigned int n_r = radial.r.size();
   const double* const of_cell = integral.on_line(cell, 0);
@@ -296,7 +185,7 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
     std::vector<Line> lines;
     for (const Point<1>& point : angular.get_points())
       lines.push_back(line_at(intervals, point[0]));
-    const std::array<Line, 2> ends = {line_at(with_ends, inside), line_at(with_ends, 1 - inside)};
+    const std::vector<Line> ends = {line_at(with_ends, inside), line_at(with_ends, 1 - inside)};
     for (const Cell& cell : cells) {
       const Point<2> low = cell->vertex(0), high = cell->vertex(3);
       const RadialShapes& radial = shapes.on(low[0], high[0]);

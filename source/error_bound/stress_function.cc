@@ -1,7 +1,7 @@
 #include "rollwave/error_bound/stress_function.h"
 
 #include "rollwave/base/work.h"
-#include "rollwave/error_bound/stress_function_basis.h"
+#include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/error_bound/stress_function_constraints.h"
 #include "rollwave/mesh/lexicographic_dofs.h"
 #include "rollwave/mesh/tensor_elements.h"

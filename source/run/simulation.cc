@@ -1,11 +1,13 @@
 #include "rollwave/run/simulation.h"
 
 #include "rollwave/adapt/marking.h"
+#include "rollwave/adapt/refinement_flags.h"
 #include "rollwave/adapt/residual_indicator.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/run/certificate_schedule.h"
 #include "rollwave/run/load_bounds.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -95,37 +97,6 @@ std::vector<double> larger_of(std::vector<double> indicators, const Certificate&
     indicators[i] = std::max(indicators[i], certificate.cell_bounds[i]);
   return indicators;
 }
-
-/**
- * Which meshes of an adaptive run are certified besides the last one, where an error is wanted:
- * those whose bound may be small enough, if it has about kept its ratio to the indicator since it
- * was computed last, and those with three times the unknowns of that mesh, or a third of its
- * indicator.
- */
-class CertificateSchedule {
-public:
-  explicit CertificateSchedule(double wanted) : wanted(wanted) {}
-
-  bool is_due(const Result& result) const {
-    constexpr double margin = 1.3; // a mesh too many costs more than a certificate
-    const double indicated = result.cycles.back().indicated,
-                 bound = bound_over_indicator * indicated,
-                 norm = std::sqrt(result.energy.norm_squared);
-    return wanted > 0 &&
-           (result.mesh.dofs >= 3. * last_unknowns || 3 * indicated <= last_indicated ||
-            bound <= margin * wanted * std::max(norm - bound, 0.));
-  }
-
-  void note(const Result& result) {
-    last_unknowns = result.mesh.dofs;
-    last_indicated = result.cycles.back().indicated;
-    bound_over_indicator = result.certified->energy_norm / last_indicated;
-  }
-
-private:
-  const double wanted;
-  double last_unknowns = 0, last_indicated = 0, bound_over_indicator = 0;
-};
 
 double most_cells(const RunOptions& options) {
   const auto& mesh = options.mesh;

@@ -24,7 +24,7 @@ std::vector<std::vector<Setting>> combinations(const std::vector<std::vector<Set
 } // namespace
 
 std::vector<RunPlan> plan_runs(const Parameters& parameters) {
-  std::vector<Parameters::NamedScene> scenes = parameters.study.scenes;
+  std::vector<NamedScene> scenes = parameters.study.scenes;
   if (scenes.empty())
     scenes.push_back({"", {}});
   std::vector<RunPlan> plans;

@@ -1,6 +1,7 @@
 #include "rollwave/study/study_table.h"
 
 #include "rollwave/base/atomic_file.h"
+#include "rollwave/base/text.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/study/study_plot.h"
 
@@ -174,25 +175,8 @@ void print_orders(std::ostream& out, const std::vector<StudyRun>& runs) {
   }
 }
 
-/// Text as TeX sets it.
-std::string in_tex(const std::string& text) {
-  std::string tex;
-  for (const char c : text)
-    if (c == '\\')
-      tex += "\\textbackslash{}";
-    else if (std::string("&%$#_{}").find(c) != std::string::npos)
-      tex += std::string("\\") + c;
-    else if (c == '^' || c == '~')
-      tex += std::string("\\") + c + "{}";
-    else if (c == '<' || c == '>' || c == '|')
-      tex += std::string("$") + c + '$';
-    else
-      tex += c;
-  return tex;
-}
-
 /// The runs with the user's words in TeX.
-std::vector<StudyRun> in_tex(std::vector<StudyRun> runs) {
+std::vector<StudyRun> runs_in_tex(std::vector<StudyRun> runs) {
   for (StudyRun& run : runs) {
     run.scene = in_tex(run.scene);
     for (Setting& setting : run.settings)
@@ -241,7 +225,7 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
   std::ostringstream table, tex;
   print_study(table, runs);
   add("study.txt", table.str());
-  make_table(in_tex(runs)).write_tex(tex, /*with_header=*/false);
+  make_table(runs_in_tex(runs)).write_tex(tex, /*with_header=*/false);
   add("study.tex", tex.str());
   const auto is_solved = [](const StudyRun& run) { return run.is_solved(); };
   if (!parameters.wants(OutputFile::plot) || std::none_of(runs.begin(), runs.end(), is_solved))

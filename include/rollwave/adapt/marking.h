@@ -72,9 +72,6 @@ bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,
                  unsigned int degree, double most_cells);
 
-/// Whether there are cells that refine_mesh() cannot cut.
-bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);
-
 } // namespace rollwave
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/parameters/prm_reader.h"
+#include "rollwave/parameters/study_options.h"
 #include "rollwave/run/run_options.h"
 
 #include <iosfwd>
@@ -20,21 +21,7 @@ enum class OutputFile { summary, contact, parameters, solution, plot };
  * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
  */
 struct Parameters : RunOptions {
-  /// A scene of a study by its name, with the settings that make it.
-  struct NamedScene {
-    std::string name;
-    std::vector<Setting> settings;
-  };
-
-  struct {
-    std::vector<NamedScene> scenes; ///< none: the scene of the file
-
-    /// One list of settings for each varied key; the study runs every combination.
-    std::vector<std::vector<Setting>> vary;
-    std::vector<std::optional<unsigned int>> published_steps;
-    bool true_errors = false;
-    unsigned int processes_per_scene = 0; ///< 0: all of them
-  } study;
+  StudyOptions study;
 
   struct {
     std::string directory = "output";

@@ -1,4 +1,4 @@
-#include "rollwave/error_bound/banded_cholesky.h"
+#include "rollwave/solver/banded_cholesky.h"
 
 #include <deal.II/base/exceptions.h>
 

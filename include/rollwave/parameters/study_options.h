@@ -1,0 +1,40 @@
+#ifndef ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
+#define ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
+
+#include "rollwave/parameters/prm_reader.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// A scene of a study by its name, with the settings that make it.
+struct NamedScene {
+  std::string name;
+  std::vector<Setting> settings;
+};
+
+/// Section `Study`.
+struct StudyOptions {
+  std::vector<NamedScene> scenes; ///< none: the scene of the file
+
+  /// One list of settings for each varied key; the study runs every combination.
+  std::vector<std::vector<Setting>> vary;
+  std::vector<std::optional<unsigned int>> published_steps;
+  bool true_errors = false;
+  unsigned int processes_per_scene = 0; ///< 0: all of them
+};
+
+/// `Study/Vary`: one list of settings for each key. @throws std::invalid_argument, BadInput
+std::vector<std::vector<Setting>> parse_vary(const std::string& text);
+
+/// `Study/Scenes`. @throws std::invalid_argument, BadInput
+std::vector<NamedScene> parse_scenes(const std::string& text);
+
+/// `Study/Published steps`, nullopt for "-". @throws std::invalid_argument
+std::vector<std::optional<unsigned int>> parse_counts(const std::string& text);
+
+} // namespace rollwave
+
+#endif
