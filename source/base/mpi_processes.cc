@@ -90,9 +90,4 @@ std::string first_text(MPI_Comm communicator, const std::string& text) {
   return first < none ? Utilities::MPI::broadcast(communicator, text, first) : std::string();
 }
 
-std::vector<std::string> gather_texts(MPI_Comm communicator, const std::string& text) {
-  return is_alone(communicator) ? std::vector<std::string>{text}
-                                : Utilities::MPI::gather(communicator, text);
-}
-
 } // namespace rollwave

@@ -59,9 +59,6 @@ std::string share_text(MPI_Comm communicator, const std::string& text);
 /// The text of the first process that has one, on all of them; empty when none has.
 std::string first_text(MPI_Comm communicator, const std::string& text);
 
-/// The texts of all processes, on the first of them; nothing on the others.
-std::vector<std::string> gather_texts(MPI_Comm communicator, const std::string& text);
-
 } // namespace rollwave
 
 #endif

@@ -14,7 +14,7 @@ namespace rollwave {
 struct Scene;
 
 /// The rule along z by which the error bound integrates over a cell: Gauss' rule with degree + 1
-/// points or, for a force that is an expression, with one more, since G_h is of a higher degree.
+/// points or, for a force that is an expression, with two more, since G_h is of a higher degree.
 dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
 
 /**

@@ -81,9 +81,6 @@ public:
 
   const RadialShapes& on(double begin, double end);
 
-  /// The same, made before.
-  const RadialShapes& made_on(double begin, double end) const { return known.made(begin, end); }
-
   /// The rule of an interval, or of each of the pieces that it is cut into.
   dealii::QGauss<1> gauss(double begin, double end) const;
 

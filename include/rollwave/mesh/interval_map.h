@@ -39,22 +39,6 @@ public:
     return values[recent].second;
   }
 
-  /// nullptr where it is not made.
-  const T* find(double begin, double end) const {
-    const auto number = numbers.find({begin, end});
-    return number == numbers.end() ? nullptr : &values[number->second].second;
-  }
-
-  /// What must have been made.
-  const T& made(double begin, double end) const {
-    const T* const found = find(begin, end);
-    Assert(found, dealii::ExcInternalError());
-    return *found;
-  }
-
-  /// All that are made, in that order.
-  const std::deque<std::pair<Interval, T>>& entries() const { return values; }
-
 private:
   std::deque<std::pair<Interval, T>> values;
   std::unordered_map<Interval, std::size_t, boost::hash<Interval>> numbers;
