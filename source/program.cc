@@ -36,10 +36,13 @@ void make_study(const Parameters& parameters, const std::filesystem::path& direc
 }
 
 /// Adds the errors to the result, where the exact solution is known.
-void verify(const Scene& scene, Solution& solution, std::ostream& out) {
+void verify(Solution& solution, std::ostream& out) {
+  const Scene& scene = solution.scene;
   if (const auto exact = find_exact_solution(scene)) {
     solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
                                                  solution.result, solution.certificate, *exact);
+    if (scene.load)
+      solution.result.errors->exact_distance = find_exact_distance(scene);
     report_verification(out, scene, solution.result, *exact);
   } else
     out << "\nNo exact solution is known for this scene: its force is not constant, its "
@@ -53,8 +56,8 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
   Solution solution = simulate(scene, parameters, processes.communicator());
   report_result(out, to_lengths(solution.result, scene.unit));
   if (verifies)
-    verify(scene, solution, out);
-  const WrittenFiles written = write_results(directory, scene, parameters, solution);
+    verify(solution, out);
+  const WrittenFiles written = write_results(directory, solution.scene, parameters, solution);
   report_end(out, solution.result.work, written);
   processes.wait_for_first();
   if (!solution.result.shortfalls.empty())

@@ -12,12 +12,14 @@ using namespace rollwave;
 namespace {
 
 /// Contact between @p left and @p right with the exact end laws of exponent s.
-ContactPatch patch_of(double left, double right, double s, double omega, double begin, double end,
-                      unsigned int n) {
+ContactResultants patch_of(double left, double right, double s, double omega, double begin,
+                           double end, unsigned int n) {
   const Scene scene{0.5, 1, omega, {}, {}, {}, begin, end};
+
   std::vector<SurfaceNode> nodes;
   ContactProblem problem;
   ContactSolution solution;
+  problem.shape = {1, 0.8};
   problem.road.reinit(n);
   problem.weight.reinit(n);
   solution.state.displacement.reinit(n);
@@ -26,6 +28,7 @@ ContactPatch patch_of(double left, double right, double s, double omega, double 
     const double z = begin + (end - begin) * i / (n - 1);
     nodes.push_back({i, z, 0.1});
     problem.weight(i) = 0.1;
+    problem.x.push_back(from_lowest_point(z));
     const double outside = std::max(left - z, z - right);
     solution.active.push_back(outside < 0);
     if (outside < 0)
@@ -33,7 +36,7 @@ ContactPatch patch_of(double left, double right, double s, double omega, double 
     else
       solution.state.displacement(i) = -std::pow(outside, 1 + s);
   }
-  return measure_contact_patch(scene, nodes, problem, solution);
+  return measure_contact(scene, nodes, problem, solution);
 }
 
 TEST(ContactPatch, EndsAreExactForTheirOwnLaws) {

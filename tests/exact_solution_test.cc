@@ -126,7 +126,9 @@ TEST(ExactSolution, IsOptimalPointByPoint) {
     const ExactSolution solution = solve_exactly(scene);
     const ExactField field(scene, solution, 20000);
     const double w = solution.half_width;
-    const auto road = flat_road(1, 0.8);
+    const auto road = [](double angle) {
+      return Road{1, 0.8}.displacement(from_lowest_point(angle));
+    };
     for (int i = 0; i <= 40; ++i) {
       const double z = 3 * PI / 2 + 2 * w * i / 40.;
       const double u = field(1, z).displacement;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> floors = {"base",       "exact",       "scene", "mesh", "solver",
+const std::vector<std::string> floors = {"base",       "scene",       "exact", "mesh", "solver",
                                          "contact",    "error_bound", "adapt", "run",  "verify",
                                          "parameters", "output",      "study"};
 

@@ -59,19 +59,12 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
   const auto surface = series(m, cosine, sine);
   const auto surface_slope = series(m, slope_cosine, slope_sine);
 
-  ManufacturedScene made{{},
-                         {{inner_radius, outer_radius, angular_velocity, 0, 0},
-                          w,
-                          0,
-                          0,
-                          0,
-                          0,
-                          0,
-                          0,
-                          0,
-                          end_exponent,
-                          true,
-                          pressure}};
+  ManufacturedScene made = {};
+  made.exact.scene = {inner_radius, outer_radius, angular_velocity, 0, 0};
+  made.exact.half_width = w;
+  made.exact.end_exponent = end_exponent;
+  made.exact.ends_resolved = true;
+  made.exact.pressure = pressure;
   made.exact.force = outer_radius * pressure.cosine_integral(0);
   made.exact.norm_squared = norm_squared;
   made.exact.energy = norm_squared / 2;

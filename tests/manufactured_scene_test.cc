@@ -70,7 +70,9 @@ TEST(ManufacturedScene, OfTheFlatRoadIsTheFlatRoad) {
         manufacture_scene(0.5, 1, omega, exact.pressure, exact.end_exponent, 0, 0.2, 20000);
     EXPECT_NEAR(made.exact.norm_squared / exact.norm_squared, 1, 1e-9);
     EXPECT_NEAR(made.exact.force / exact.force, 1, 1e-9);
-    const auto flat = flat_road(1, 0.8);
+    const auto flat = [](double angle) {
+      return Road{1, 0.8}.displacement(from_lowest_point(angle));
+    };
     for (double x = -0.45; x < 0.46; x += 0.05)
       EXPECT_NEAR(made.scene.road(3 * PI / 2 + x), flat(3 * PI / 2 + x), 1e-6);
   }

@@ -110,9 +110,7 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
   std::vector<Result> results = {nearest.result};
   Solution solution = std::move(nearest);
   for (const int i : {1, 2}) {
-    Scene farther = scene;
-    farther.road = flat_road(scene.outer_radius, c + i * step);
-    farther.road_slope = flat_road_slope(c + i * step);
+    const Scene farther = with_distance(scene, c + i * step);
     solution = simulate_next(farther, parameters, std::move(solution));
     results.push_back(solution.result);
   }
@@ -120,7 +118,7 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
   EXPECT_GE(results[0].energy.value - 2 * results[1].energy.value + results[2].energy.value,
             -1e-10 * energy);
   for (const int i : {0, 1}) {
-    const ContactPatch &near = results[i].patch, &far = results[i + 1].patch;
+    const ContactResultants &near = results[i].patch, &far = results[i + 1].patch;
     const double size = 1e-9 * std::abs(results[0].patch.work_conjugate_load);
     EXPECT_LE(far.work_conjugate_load, near.work_conjugate_load + size);
     // E(c) - E(c + d) lies between d G at both ends.

@@ -2,8 +2,6 @@
 
 #include "rollwave/scene/scene.h"
 
-#include <deal.II/base/numbers.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,22 +11,16 @@ using namespace dealii;
 
 namespace {
 
-/// The contact nodes in one direction along the surface.
+/// The contact nodes in the order of their angles.
 struct Profile {
-  std::vector<double> angle;
-  std::vector<double> gap;
-  std::vector<double> pressure;
-  std::vector<bool> active;
+  std::vector<double> angle, gap, pressure;
+};
 
-  Profile mirrored() const {
-    Profile mirror{{angle.rbegin(), angle.rend()},
-                   {gap.rbegin(), gap.rend()},
-                   {pressure.rbegin(), pressure.rend()},
-                   {active.rbegin(), active.rend()}};
-    for (double& z : mirror.angle)
-      z = -z;
-    return mirror;
-  }
+/// A stretch of contact: its first and last node, and how many nodes without contact on each side
+/// belong to it more than to the next stretch.
+struct Stretch {
+  int first, last;
+  int n_before, n_behind;
 };
 
 /// Where the line through (z0, value0^power) and (z1, value1^power) is zero; nullopt unless the
@@ -40,57 +32,102 @@ std::optional<double> root(double z0, double value0, double z1, double value1, d
   return z0 - (z1 - z0) / (ratio - 1);
 }
 
-/// Where contact begins, or @p zone_begin when it begins with the zone.
-double first_end(const Profile& nodes, double zone_begin, double speed_margin) {
+/// The end of a stretch beside its outermost node @p i, with @p n_outside nodes in the direction @p
+/// out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
+double find_end(const Profile& nodes, int i, int out, int n_outside, int n_inside,
+                double speed_margin) {
   const auto& z = nodes.angle;
-  const unsigned int n = z.size();
-  const unsigned int i =
-      std::find(nodes.active.begin(), nodes.active.end(), true) - nodes.active.begin();
-  if (i == 0)
-    return zone_begin;
-
-  const double spacing = z[i] - z[i - 1];
+  const double spacing = std::abs(z[i] - z[i + out]);
   const double s = spacing > std::pow(2 * speed_margin, 1.5) ? 1. / 3 : 1. / 2;
+  const auto root_of_gap = [&](int near, int far) {
+    const int k = i + near * out, l = i + far * out;
+    return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
+  };
   std::optional<double> end;
-  if (i >= 4)
-    end = root(z[i - 2], nodes.gap[i - 2], z[i - 4], nodes.gap[i - 4], 1 / (1 + s));
-  if (!end && i >= 2)
-    end = root(z[i - 1], nodes.gap[i - 1], z[i - 2], nodes.gap[i - 2], 1 / (1 + s));
-  if (!end && i + 1 < n)
-    end = root(z[i], nodes.pressure[i], z[i + 1], nodes.pressure[i + 1], 1 / (1 - s));
+  if (n_outside >= 4)
+    end = root_of_gap(2, 4);
+  if (!end && n_outside >= 2)
+    end = root_of_gap(1, 2);
+  if (!end && n_inside >= 1)
+    end = root(z[i], nodes.pressure[i], z[i - out], nodes.pressure[i - out], 1 / (1 - s));
   if (!end)
-    end = z[i] - spacing / 2;
-  return std::clamp(*end, z[i - 1] - spacing / 2, z[i] + spacing / 2);
+    end = z[i] + out * spacing / 2;
+  const auto [low, high] = std::minmax(z[i + out] + out * spacing / 2, z[i] - out * spacing / 2);
+  return std::clamp(*end, low, high);
+}
+
+/// The stretches of active nodes. Nodes that touch the road without pressing part none.
+std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profile& nodes,
+                                    double negligible_gap) {
+  const int n = active.size();
+  std::vector<Stretch> stretches;
+  double opening = 0; // the largest gap since the last active node
+  for (int i = 0; i < n; ++i) {
+    opening = std::max(opening, nodes.gap[i]);
+    if (!active[i])
+      continue;
+    if (stretches.empty())
+      stretches.push_back({i, i, i, 0});
+    else if (opening > negligible_gap) {
+      Stretch& before = stretches.back();
+      before.n_behind = (i - before.last) / 2; // of i - last - 1 nodes, rounded up
+      stretches.push_back({i, i, before.n_behind, 0});
+    } else
+      stretches.back().last = i;
+    opening = 0;
+  }
+  if (!stretches.empty())
+    stretches.back().n_behind = n - 1 - stretches.back().last;
+  return stretches;
 }
 
 } // namespace
 
-ContactPatch measure_contact_patch(const Scene& scene, const std::vector<SurfaceNode>& nodes,
-                                   const ContactProblem& problem, const ContactSolution& solution) {
-  ContactPatch patch = {};
+double ContactResultants::half_width() const {
+  double sum = 0;
+  for (const ContactPatch& patch : patches)
+    sum += (patch.end - patch.begin) / 2;
+  return sum;
+}
+
+ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
+                                  const ContactProblem& problem, const ContactSolution& solution) {
+  const auto& [displacement, force] = solution.state;
+  ContactResultants resultants = {};
+  const Loads loads = loads_of(problem, force);
+  resultants.force = loads.total;
+  resultants.vertical_load = loads.vertical;
+  resultants.work_conjugate_load = loads.work_conjugate;
   Profile profile;
   for (unsigned int i = 0; i < nodes.size(); ++i) {
-    const double z = nodes[i].angle;
-    const double force = solution.state.force(i);
-    const double pressure = force / problem.weight(i);
-    const double down = std::cos(z - 3 * numbers::PI / 2);
-    patch.force += force;
-    patch.vertical_load += force * down;
-    patch.work_conjugate_load += force / down;
-    patch.peak_pressure = std::max(patch.peak_pressure, pressure);
-    patch.active_nodes += solution.active[i];
-    profile.angle.push_back(z);
-    profile.gap.push_back(problem.road(i) - solution.state.displacement(i));
-    profile.pressure.push_back(pressure);
-    profile.active.push_back(solution.active[i]);
+    resultants.active_nodes += solution.active[i];
+    profile.angle.push_back(nodes[i].angle);
+    profile.gap.push_back(problem.road(i) - displacement(i));
+    profile.pressure.push_back(force(i) / problem.weight(i));
+    resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure.back());
   }
-  if (patch.active_nodes > 0) {
-    const double speed_margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
-    const double left = first_end(profile, scene.zone_begin, speed_margin);
-    const double right = -first_end(profile.mirrored(), -scene.zone_end, speed_margin);
-    patch.ends = std::pair(std::min(left, right), std::max(left, right));
+  const double speed_margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
+  for (const Stretch& stretch :
+       find_stretches(solution.active, profile, 1e-10 * displacement.linfty_norm())) {
+    const auto [first, last, n_before, n_behind] = stretch;
+    ContactPatch patch = {scene.zone_begin, scene.zone_end, 0, 0, 0};
+    if (n_before > 0)
+      patch.begin = find_end(profile, first, -1, n_before, last - first, speed_margin);
+    if (n_behind > 0)
+      patch.end = find_end(profile, last, 1, n_behind, last - first, speed_margin);
+    if (patch.end < patch.begin)
+      std::swap(patch.begin, patch.end);
+    for (int i = first; i <= last; ++i) {
+      patch.force += force(i);
+      patch.centroid += force(i) * profile.angle[i];
+      patch.peak_pressure = std::max(patch.peak_pressure, profile.pressure[i]);
+    }
+    patch.centroid = patch.force > 0 ? patch.centroid / patch.force : profile.angle[first];
+    resultants.patches.push_back(patch);
   }
-  return patch;
+  if (const auto& patches = resultants.patches; !patches.empty())
+    resultants.ends = std::pair(patches.front().begin, patches.back().end);
+  return resultants;
 }
 
 } // namespace rollwave

@@ -2,7 +2,8 @@
 
 #include "rollwave/contact/active_set.h"
 #include "rollwave/contact/uzawa.h"
-#include "rollwave/scene/scene.h"
+
+#include <cmath>
 
 namespace rollwave {
 
@@ -11,13 +12,27 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
   ContactProblem problem;
   problem.road.reinit(nodes.size());
   problem.weight.reinit(nodes.size());
+  problem.shape = scene.road_at(scene.road_distance);
   problem.unit = scene.unit;
   problem.communicator = space.communicator();
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     problem.road(i) = scene.road(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;
+    problem.x.push_back(from_lowest_point(nodes[i].angle));
   }
   return problem;
+}
+
+Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& force) {
+  Loads loads = {};
+  for (unsigned int i = 0; i < problem.size(); ++i) {
+    if (force(i) == 0)
+      continue;
+    loads.total += force(i);
+    loads.vertical += force(i) * std::cos(problem.x[i]);
+    loads.work_conjugate += force(i) * problem.shape.lift(problem.x[i]);
+  }
+  return loads;
 }
 
 ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,

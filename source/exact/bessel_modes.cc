@@ -1,6 +1,6 @@
 #include "rollwave/exact/bessel_modes.h"
 
-#include "rollwave/exact/uniform_force.h"
+#include "rollwave/scene/uniform_force.h"
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -1,6 +1,6 @@
 #include "rollwave/exact/exact_field.h"
 
-#include "rollwave/exact/uniform_force.h"
+#include "rollwave/scene/uniform_force.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -19,7 +19,7 @@ ExactField::ExactField(const ExactScene& scene, const ExactSolution& solution, u
 
 ExactField::Value ExactField::operator()(double r, double z) const {
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
-  Value value{contact_free_displacement(scene, r), f * (b - r) * (b + r) / (2 * r), 0};
+  Value value{scene.contact_free_displacement(r), f * (b - r) * (b + r) / (2 * r), 0};
   const double x = z - 3 * numbers::PI / 2;
   for (unsigned int k = 0; k < amplitudes.size(); ++k) {
     double radial = 1, slope = 0;
@@ -42,7 +42,7 @@ std::vector<std::vector<double>>
 ExactField::cosine_coefficients(const std::vector<double>& radii) const {
   std::vector<std::vector<double>> coefficients(radii.size());
   for (unsigned int i = 0; i < radii.size(); ++i)
-    coefficients[i].push_back(contact_free_displacement(scene, radii[i]));
+    coefficients[i].push_back(scene.contact_free_displacement(radii[i]));
   // Radii at which modes still matter, the outermost last to fade.
   std::vector<unsigned int> left(radii.size());
   for (unsigned int i = 0; i < radii.size(); ++i)

@@ -74,8 +74,11 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
       << ", omega = " << parameters.cylinder.angular_velocity
       << " (omega b = " << scene.angular_velocity * scene.outer_radius
       << "), f = " << parameters.cylinder.radial_force << '\n'
-      << "Road       distance " << parameters.road.distance << ", zone of possible contact ["
-      << scene.zone_begin << ", " << scene.zone_end << "]\n"
+      << "Road       " << (scene.load ? "load " : "distance ")
+      << parameters.road.load.value_or(parameters.road.distance);
+  if (scene.road_curvature != 0)
+    out << ", curvature " << parameters.road.curvature;
+  out << ", zone of possible contact [" << scene.zone_begin << ", " << scene.zone_end << "]\n"
       << std::flush;
 }
 
@@ -95,17 +98,22 @@ void report_result(std::ostream& out, const Result& result) {
   for (const std::string& remark : result.remarks)
     out << "Note: " << remark << '\n';
 
-  const ContactPatch& patch = result.patch;
+  const ContactResultants& contact = result.patch;
   out << "\nResult\n" << std::setprecision(9);
-  if (patch.ends)
-    out << "  contact from " << patch.ends->first << " to " << patch.ends->second << ", half-width "
-        << patch.half_width() << ", " << patch.active_nodes << " nodes\n";
-  else
+  out << "  road distance        c = " << result.road_distance << '\n';
+  if (contact.patches.size() > 1)
+    out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
+        << " nodes\n";
+  for (const ContactPatch& patch : contact.patches)
+    out << "  contact from " << patch.begin << " to " << patch.end << ", half-width "
+        << (patch.end - patch.begin) / 2 << ", force " << contact.force << '\n';
+  if (contact.patches.empty())
     out << "  no contact\n";
-  out << "  contact force        F = " << patch.force << '\n'
-      << "  vertical load            " << patch.vertical_load << '\n'
-      << "  work-conjugate load  G = " << patch.work_conjugate_load << '\n'
-      << "  peak pressure            " << patch.peak_pressure << '\n'
+  out << "  contact force        F = " << contact.force << '\n'
+      << "  vertical load            " << contact.vertical_load << '\n'
+      << "  work-conjugate load  G = " << contact.work_conjugate_load << '\n'
+      << "  peak pressure            " << contact.peak_pressure << '\n'
+      << "  stiffness  -d(load)/dc   " << contact.stiffness.vertical << " (vertical)\n"
       << "  energy          J(u_h) = " << result.energy.value
       << ", a(u_h, u_h) = " << result.energy.norm_squared << '\n';
   if (result.certified) {
@@ -116,6 +124,9 @@ void report_result(std::ostream& out, const Result& result) {
     if (result.load_bounds)
       out << "           G    from " << std::setprecision(9) << result.load_bounds->lower << " to "
           << result.load_bounds->upper << '\n';
+    if (result.distance_bounds)
+      out << "           c    from " << std::setprecision(9) << result.distance_bounds->lower
+          << " to " << result.distance_bounds->upper << '\n';
   }
   if (!result.shortfalls.empty())
     out << "Shortfall  " << shortfall_text(result) << '\n';

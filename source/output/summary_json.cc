@@ -21,7 +21,8 @@ void add_scene_and_mesh(const Scene& scene, const RunOptions& options, const Res
   json["scene"] = {{"inner_radius", options.cylinder.inner_radius},
                    {"outer_radius", options.cylinder.outer_radius},
                    {"angular_velocity", options.cylinder.angular_velocity},
-                   {"road_distance", options.road.distance},
+                   {"road_distance", result.road_distance},
+                   {"road_curvature", options.road.curvature},
                    {"radial_force", options.cylinder.radial_force},
                    {"zone_begin", scene.zone_begin},
                    {"zone_end", scene.zone_end}};
@@ -31,16 +32,30 @@ void add_scene_and_mesh(const Scene& scene, const RunOptions& options, const Res
 }
 
 void add_contact(const Result& result, Json& json) {
-  const ContactPatch& patch = result.patch;
+  const ContactResultants& patch = result.patch;
   const auto [left, right] = patch.ends.value_or(std::pair(0., 0.));
   json["contact"] = {{"left_end", number_or_null(patch.ends.has_value(), left)},
                      {"right_end", number_or_null(patch.ends.has_value(), right)},
-                     {"half_width", patch.half_width()},
+                     {"half_width", number_or_null(patch.patches.size() < 2, patch.half_width())},
                      {"force", patch.force},
                      {"vertical_load", patch.vertical_load},
                      {"work_conjugate_load", patch.work_conjugate_load},
                      {"peak_pressure", patch.peak_pressure},
                      {"active_nodes", patch.active_nodes}};
+  json["contact"]["stiffness"] = {{"force", patch.stiffness.total},
+                                  {"vertical_load", patch.stiffness.vertical},
+                                  {"work_conjugate_load", patch.stiffness.work_conjugate}};
+  json["contact"]["patches"] = Json::array();
+  for (const ContactPatch& stretch : patch.patches)
+    json["contact"]["patches"].push_back({{"left_end", stretch.begin},
+                                          {"right_end", stretch.end},
+                                          {"force", stretch.force},
+                                          {"centroid", stretch.centroid},
+                                          {"peak_pressure", stretch.peak_pressure}});
+  if (result.distance_bounds) {
+    json["contact"]["distance_lower_bound"] = result.distance_bounds->lower;
+    json["contact"]["distance_upper_bound"] = result.distance_bounds->upper;
+  }
   if (result.load_bounds) {
     json["contact"]["work_conjugate_load_lower_bound"] = result.load_bounds->lower;
     json["contact"]["work_conjugate_load_upper_bound"] = result.load_bounds->upper;
@@ -68,6 +83,8 @@ void add_energy_and_errors(const Result& result, Json& json) {
     error["exact_force"] = result.errors->force;
     error["exact_energy"] = result.errors->energy;
     error["exact_half_width"] = result.errors->half_width;
+    if (result.errors->exact_distance)
+      error["exact_distance"] = std::abs(*result.errors->exact_distance - result.road_distance);
     if (result.errors->admissible_energy_norm) {
       if (result.errors->is_resolved)
         error["exact_feasible_energy_norm"] = *result.errors->admissible_energy_norm;

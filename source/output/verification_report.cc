@@ -31,10 +31,16 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("exact to", accuracy > 0 ? number(accuracy, 1) : "-");
   };
   add("force F", length, result.patch.force, exact.force, exact.force_accuracy);
+  add("vertical load", length, result.patch.vertical_load, exact.vertical_load,
+      exact.force_accuracy);
+  add("work-conjugate load G", length, result.patch.work_conjugate_load, exact.work_conjugate_load,
+      exact.force_accuracy);
   add("energy J", area, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", area, result.energy.norm_squared, exact.norm_squared, 0);
   add("half-width", 1, result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
   add("peak pressure", 1, result.patch.peak_pressure, exact.peak_pressure, 0);
+  if (result.errors && result.errors->exact_distance)
+    add("distance c", length, result.road_distance, *result.errors->exact_distance, 1e-10);
   out << "\nVerification against the semi-analytic solution\n";
   print_table(out, table);
   if (!exact.ends_resolved)

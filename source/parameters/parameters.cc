@@ -69,6 +69,25 @@ void declare_road(Declarations& keys, Parameters& p) {
                   "Distance c of the flat road below the axle: a length, greater than a; less than "
                   "2 b where the zone is auto.");
   keys.add(
+      "Load", "none",
+      [&p](const std::string& text) {
+        p.road.load = text == "none" ? std::nullopt : std::optional(to_number(text));
+        if (p.road.load && !(*p.road.load > 0))
+          throw std::invalid_argument(text);
+      },
+      "\"none\", or instead of the distance the load for each unit of the axle's length over the "
+      "shear modulus: a length, greater than 0.");
+  keys.add_choice<LoadKind>(
+      "Load kind", p.road.load_kind,
+      {{"vertical", LoadKind::vertical},
+       {"total", LoadKind::total},
+       {"work-conjugate", LoadKind::work_conjugate}},
+      "What the load is: \"vertical\", what the axle carries; \"total\", the integral of the "
+      "pressure; \"work-conjugate\", what does work when the distance changes.");
+  keys.add_number("Curvature", p.road.curvature, -huge, huge,
+                  "Curvature kappa of the road: one over a length; 0 is flat, positive the outside "
+                  "of a drum, negative the inside of one with -1/kappa > b.");
+  keys.add(
       "Contact zone", "auto",
       [&p](const std::string& text) { p.road.contact_zone = parse_zone(text); },
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
@@ -239,6 +258,25 @@ bool Parameters::wants(OutputFile file) const {
   return std::find(output.files.begin(), output.files.end(), file) != output.files.end();
 }
 
+namespace {
+
+/// The road is placed by its distance or by its load.
+void refuse_two_positions(const std::vector<Setting>& settings) {
+  const auto last = [&](const std::string& path) {
+    const auto found = std::find_if(settings.rbegin(), settings.rend(),
+                                    [&](const Setting& setting) { return setting.path() == path; });
+    return found != settings.rend() && found->value != "none" ? &*found : nullptr;
+  };
+  const Setting* const load = last("Road/Load");
+  if (load && last("Road/Distance"))
+    throw BadInput(
+        place(*load) + ", value " + in_quotes(load->value) +
+        ": the distance follows from the load; leave Road/Distance out, or set Road/Load "
+        "= none");
+}
+
+} // namespace
+
 Parameters read_parameters(const std::vector<Setting>& settings) {
   Parameters parameters;
   ParameterHandler prm;
@@ -257,6 +295,7 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
           value.origin = origin;
   }
   parameters.settings = settings;
+  refuse_two_positions(settings);
   return parameters;
 }
 

@@ -1,7 +1,6 @@
 #include "rollwave/run/load_bounds.h"
 
 #include "rollwave/error_bound/error_bound.h"
-#include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
 
 #include <algorithm>
@@ -11,33 +10,74 @@ namespace rollwave {
 
 using namespace dealii;
 
-LoadBounds bound_load(const Scene& scene, const RunOptions& options, const RingSpace& space,
-                      const MeshSolution& solution, MeshCache& system, Result& result) {
-  const CertifiedError here = *result.certified;
-  const double b = scene.outer_radius, c = scene.road_distance;
-  const double w = result.patch.half_width();
-  double step = 1e-3 * (b - scene.inner_radius);
-  if (w > 0) {
-    // The road sinks in by about b w^2.
-    const double slope = result.patch.work_conjugate_load / (b * w * w);
-    step = std::sqrt(2 * (here.upper_bound - here.lower_bound) / slope);
-  }
-  step = std::min(step, (c - scene.inner_radius) / 2);
+namespace {
 
-  Vector<double> start(solution.problem.size());
-  for (unsigned int i = 0; i < start.size(); ++i)
-    start(i) = solution.contact.state.force(i) / solution.problem.weight(i);
-  const auto certify_at = [&](double distance) {
-    Scene moved = scene;
-    moved.road = flat_road(b, distance);
-    moved.road_slope = flat_road_slope(distance);
-    const MeshSolution there = solve_on_mesh(moved, options, space, start, system, result.work);
-    return certify(space, moved, there.problem, there.contact, there.displacement, system.load,
-                   system.dual_of(moved, space, result.work), result.work);
-  };
-  const Certificate near = certify_at(c - step), far = certify_at(c + step);
-  return {std::max(0., (here.lower_bound - far.error.upper_bound) / step),
-          (near.error.upper_bound - here.lower_bound) / step};
+/// The certified bounds of E(c) at the distances c.
+class CertifiedEnergy {
+public:
+  CertifiedEnergy(const RunOptions& options, const RingSpace& space, const MeshSolution& solution,
+                  MeshCache& system, Work& work)
+      : options(options), space(space), solution(solution), system(system), work(work),
+        start(solution.contact.state.force) {
+    for (unsigned int i = 0; i < start.size(); ++i)
+      start(i) /= solution.problem.weight(i);
+  }
+
+  Bounds operator()(double distance) const {
+    Scene moved = with_distance(solution.scene, distance);
+    moved.load.reset();
+    const MeshSolution there = solve_on_mesh(moved, options, space, start, system, work);
+    const CertifiedError error =
+        certify(space, moved, there.problem, there.contact, there.displacement, system.load,
+                system.dual_of(moved, space, work), work)
+            .error;
+    return {error.lower_bound, error.upper_bound};
+  }
+
+private:
+  const RunOptions& options;
+  const RingSpace& space;
+  const MeshSolution& solution;
+  MeshCache& system;
+  Work& work;
+  Vector<double> start;
+};
+
+/// The step at which the two widths of the bounds of G are equal.
+double best_step(const Scene& scene, const CertifiedError& here, double stiffness) {
+  const double step = stiffness > 0
+                          ? std::sqrt(2 * (here.upper_bound - here.lower_bound) / stiffness)
+                          : 1e-3 * (scene.outer_radius - scene.inner_radius);
+  return std::min(step, (scene.road_distance - scene.inner_radius) / 2);
+}
+
+} // namespace
+
+Bounds bound_load(const RunOptions& options, const RingSpace& space, const MeshSolution& solution,
+                  MeshCache& system, Result& result) {
+  const CertifiedError here = *result.certified;
+  const CertifiedEnergy energy(options, space, solution, system, result.work);
+  const double c = solution.scene.road_distance;
+  const double step = best_step(solution.scene, here, solution.stiffness.work_conjugate);
+  const Bounds near = energy(c - step), far = energy(c + step);
+  return {std::max(0., (here.lower_bound - far.upper) / step),
+          (near.upper - here.lower_bound) / step};
+}
+
+std::optional<Bounds> bound_distance(const RunOptions& options, const RingSpace& space,
+                                     const MeshSolution& solution, MeshCache& system,
+                                     Result& result) {
+  const CertifiedError here = *result.certified;
+  const CertifiedEnergy energy(options, space, solution, system, result.work);
+  const double c = solution.scene.road_distance, load = solution.scene.load->value;
+  for (double step = 1.5 * best_step(solution.scene, here, solution.stiffness.work_conjugate);
+       step < 0.01 * c; step *= 2) {
+    const Bounds near = energy(c - step), far = energy(c + step);
+    if ((here.upper_bound - far.lower) / step <= load &&
+        load <= (near.lower - here.upper_bound) / step)
+      return Bounds{c - step, c + step};
+  }
+  return {};
 }
 
 } // namespace rollwave

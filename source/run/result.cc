@@ -31,8 +31,9 @@ std::string shortfall_text(const Result& result) {
 
 Result to_lengths(Result result, double unit) {
   const double square = unit * unit;
-  for (double* const length : {&result.mesh.h_min, &result.mesh.h_max, &result.patch.force,
-                               &result.patch.vertical_load, &result.patch.work_conjugate_load})
+  for (double* const length :
+       {&result.mesh.h_min, &result.mesh.h_max, &result.road_distance, &result.patch.force,
+        &result.patch.vertical_load, &result.patch.work_conjugate_load})
     *length *= unit;
   result.energy.value *= square;
   result.energy.norm_squared *= square;
@@ -43,16 +44,21 @@ Result to_lengths(Result result, double unit) {
     certified->upper_bound *= square;
     certified->norm_squared *= square;
   }
-  if (auto& load = result.load_bounds) {
-    load->lower *= unit;
-    load->upper *= unit;
-  }
+  for (ContactPatch& patch : result.patch.patches)
+    patch.force *= unit;
+  for (auto* const bounds : {&result.load_bounds, &result.distance_bounds})
+    if (*bounds) {
+      (*bounds)->lower *= unit;
+      (*bounds)->upper *= unit;
+    }
   if (auto& errors = result.errors) {
     errors->energy_norm *= unit;
     errors->l2_norm *= square;
     errors->pressure *= std::sqrt(unit);
     errors->force *= unit;
     errors->energy *= square;
+    if (errors->exact_distance)
+      *errors->exact_distance *= unit;
     if (errors->admissible_energy_norm)
       *errors->admissible_energy_norm *= unit;
   }

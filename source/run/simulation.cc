@@ -60,8 +60,9 @@ std::string left_out_text(const std::string& what, const NotSolved& failure,
 }
 
 /// Certifies, unless that fails, such as for want of memory: then that is a shortfall.
-void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution& solution) {
+void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
+  const Scene& scene = on_mesh.scene;
   try {
     solution.certificate =
         certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
@@ -77,13 +78,13 @@ void certify_solution(const Scene& scene, const MeshSolution& on_mesh, Solution&
 }
 
 /// eta_K of each active cell.
-std::vector<double> indicate(Indicator indicator, const Scene& scene, const MeshSolution& on_mesh,
-                             Solution& solution) {
+std::vector<double> indicate(Indicator indicator, const MeshSolution& on_mesh, Solution& solution) {
   const Work::Phase phase(solution.result.work, "indicator");
-  std::vector<double> of_cells = indicator == Indicator::kelly
-                                     ? kelly_indicator(*solution.space, on_mesh.displacement)
-                                     : residual_indicator(*solution.space, scene, on_mesh.problem,
-                                                          on_mesh.contact, on_mesh.displacement);
+  std::vector<double> of_cells =
+      indicator == Indicator::kelly
+          ? kelly_indicator(*solution.space, on_mesh.displacement)
+          : residual_indicator(*solution.space, on_mesh.scene, on_mesh.problem, on_mesh.contact,
+                               on_mesh.displacement);
   const double squared = std::inner_product(of_cells.begin(), of_cells.end(), of_cells.begin(), 0.);
   solution.result.cycles.back().indicated =
       std::sqrt(Utilities::MPI::sum(squared, solution.space->communicator()));
@@ -105,12 +106,11 @@ double most_cells(const RunOptions& options) {
 
 /// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
 /// nothing is changed, when the mesh would get too large or no cell is marked.
-bool refine(const Scene& scene, const std::vector<double>& indicators, const RunOptions& options,
-            Solution& solution) {
+bool refine(const std::vector<double>& indicators, const RunOptions& options, Solution& solution) {
   const Work::Phase phase(solution.result.work, "mesh");
   const auto& mesh = options.mesh;
-  if (!refine_mesh(*solution.triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
-                   mesh.degree, most_cells(options)))
+  if (!refine_mesh(*solution.triangulation, solution.scene, indicators, mesh.marking,
+                   mesh.marked_fraction, mesh.degree, most_cells(options)))
     return false;
   solution.certificate.reset();
   solution.system = {};
@@ -151,13 +151,25 @@ std::string residual_text(const Residuals& residuals) {
   return text.str();
 }
 
+/// Bounds the work-conjugate load or, where that is given, the distance.
+void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
+  Result& result = solution.result;
+  if (!solution.scene.load)
+    result.load_bounds = bound_load(options, *solution.space, on_mesh, solution.system, result);
+  else if (solution.scene.load->kind == LoadKind::work_conjugate)
+    result.distance_bounds =
+        bound_distance(options, *solution.space, on_mesh, solution.system, result);
+  else
+    result.remarks.push_back("the distance can be enclosed where Road/Load kind is work-conjugate "
+                             "only");
+}
+
 /// Completes the result of the last mesh.
-void finish(const Scene& scene, const RunOptions& options, MeshSolution on_mesh,
-            Solution& solution) {
+void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution) {
   Result& result = solution.result;
   const auto& certificate = options.certificate;
   if (certificate.error_bound && !solution.certificate)
-    certify_solution(scene, on_mesh, solution);
+    certify_solution(on_mesh, solution);
   if (options.mesh.wanted_relative_error > 0 && !is_reached(options, result))
     result.shortfalls.push_back(missing_error_text(options, solution));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
@@ -165,37 +177,38 @@ void finish(const Scene& scene, const RunOptions& options, MeshSolution on_mesh,
     result.shortfalls.push_back(residual_text(result.residuals));
   if (certificate.load_bounds && result.certified && !result.is_interrupted)
     try {
-      result.load_bounds =
-          bound_load(scene, options, *solution.space, on_mesh, solution.system, result);
+      enclose_load(options, on_mesh, solution);
     } catch (const NotSolved& failure) {
       result.shortfalls.push_back(
           left_out_text("the load could not be enclosed", failure, "Certificate/Load bounds"));
     }
-  for (const std::string& remark : remarks_on(scene, options, result))
+  for (const std::string& remark : remarks_on(solution.scene, options, result))
     result.remarks.push_back(remark);
   solution.displacement = std::move(on_mesh.displacement);
 }
 
 /// Solves, indicates and refines until what @p options want is reached, or cannot be. @p
 /// solution has a mesh. @param is_kept whether what belongs to the last mesh will be used again
-void solve_and_refine(const Scene& scene, const RunOptions& options, Result before,
-                      MPI_Comm communicator, bool is_kept, Solution& solution) {
+void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communicator, bool is_kept,
+                      Solution& solution) {
   const auto& mesh = options.mesh;
   Result& result = solution.result;
   CertificateSchedule schedule(mesh.wanted_relative_error);
   for (unsigned int cycle = 0;; ++cycle) {
     if (!solution.space) {
       const Work::Phase phase(result.work, "space");
-      solution.space = std::make_unique<RingSpace>(*solution.triangulation, scene, mesh.degree);
+      solution.space =
+          std::make_unique<RingSpace>(*solution.triangulation, solution.scene, mesh.degree);
     }
     if (cycle == 0 && is_interrupted(communicator))
       throw Interrupted("interrupted before the first mesh was solved");
 
     MeshSolution on_mesh =
-        solve_on_mesh(scene, options, *solution.space,
+        solve_on_mesh(solution.scene, options, *solution.space,
                       carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
                       solution.system, result.work);
-    measure(scene, *solution.space, on_mesh, result);
+    solution.scene = on_mesh.scene;
+    measure(*solution.space, on_mesh, result);
     if (!is_kept && !options.certificate.load_bounds)
       solution.system.stiffness.solver.reset(); // the certificate needs its memory
 
@@ -203,9 +216,9 @@ void solve_and_refine(const Scene& scene, const RunOptions& options, Result befo
         result.is_interrupted || cycle == most_cycles(options.mesh) ||
         !has_room_to_refine(*solution.triangulation, mesh.marking, most_cells(options));
     if (!is_last) {
-      std::vector<double> indicators = indicate(mesh.indicator, scene, on_mesh, solution);
+      std::vector<double> indicators = indicate(mesh.indicator, on_mesh, solution);
       if (schedule.is_due(result)) {
-        certify_solution(scene, on_mesh, solution);
+        certify_solution(on_mesh, solution);
         if (solution.certificate) {
           schedule.note(result);
           if (mesh.indicator != Indicator::kelly)
@@ -216,10 +229,10 @@ void solve_and_refine(const Scene& scene, const RunOptions& options, Result befo
       if (result.is_interrupted)
         result.shortfalls.push_back(interruption_text(result));
       if (!result.is_interrupted && !is_reached(options, result) &&
-          refine(scene, indicators, options, solution))
+          refine(indicators, options, solution))
         continue;
     }
-    finish(scene, options, std::move(on_mesh), solution);
+    finish(options, std::move(on_mesh), solution);
     if (!is_kept)
       solution.system = {};
     return;
@@ -227,8 +240,10 @@ void solve_and_refine(const Scene& scene, const RunOptions& options, Result befo
 }
 
 /// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
-/// iterative kind a new preconditioner.
+/// iterative kind a new preconditioner, and a given load takes several iterations.
 bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
+  if (options.road.load)
+    return count_unknowns(options.mesh) > 1e4;
   constexpr double least_unknowns = 1e5;
   return (options.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
          options.contact.method == ContactMethod::active_set &&
@@ -256,13 +271,16 @@ Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicato
              Solution previous, bool is_kept) {
   check_simulation(options, count_processes(communicator));
   Solution solution;
+  solution.scene = scene;
   solution.triangulation = std::move(previous.triangulation);
   solution.space = std::move(previous.space);
   solution.system = std::move(previous.system);
   Result before;
   if (begins_coarser(options, communicator))
     try {
-      before = run(scene, coarser(options), communicator, {}, false).result;
+      Solution start = run(scene, coarser(options), communicator, {}, false);
+      solution.scene = std::move(start.scene);
+      before = std::move(start.result);
       solution.result.work = before.work;
     } catch (const Interrupted&) {
       throw;
@@ -277,7 +295,7 @@ Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicato
         make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
   }
   try {
-    solve_and_refine(scene, options, std::move(before), communicator, is_kept, solution);
+    solve_and_refine(options, std::move(before), communicator, is_kept, solution);
   } catch (const NotEnoughMemory& shortage) {
     if (solution.result.cycles.empty())
       throw;

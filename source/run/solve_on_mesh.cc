@@ -1,6 +1,7 @@
 #include "rollwave/run/solve_on_mesh.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/assembly.h"
 #include "rollwave/scene/scene.h"
 
@@ -114,6 +115,7 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& system, Wo
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
                            const Vector<double>& start, MeshCache& system, Work& work) {
   MeshSolution solution;
+  solution.scene = scene;
   make_load(scene, space, system, work);
   auto& solver = system.stiffness.solver;
   const std::string& remark = system.stiffness.remark;
@@ -121,15 +123,22 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
     solver->turn_to(scene, system.load, work);
   else
     system.stiffness = choose_solver(options.solver.kind, space, scene, system.load, work);
-  solution.problem = make_contact_problem(space, scene);
   {
     const Work::Phase phase(work, "contact");
-    solution.contact = solve_contact(*solver, solution.problem, options.contact, start);
+    Vector<double> pressure = start;
+    if (scene.load) {
+      RoadPosition road = find_distance(*solver, space, scene, options.contact.most_steps, start);
+      solution.scene = with_distance(scene, road.distance);
+      pressure = std::move(road.pressure);
+    }
+    solution.problem = make_contact_problem(space, solution.scene);
+    solution.contact = solve_contact(*solver, solution.problem, options.contact, pressure);
   }
   if (!remark.empty())
     solution.contact.remark =
         remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
   solution.displacement = solver->displacement_field(solution.contact.state);
+  solution.stiffness = contact_stiffness(*solver, solution.problem, solution.contact);
   const Work::Phase phase(work, "measurement");
   const double round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
   FieldVector stiffness_times_u = solver->apply(solution.displacement);
@@ -142,12 +151,13 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
   return solution;
 }
 
-void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
-             Result& result) {
+void measure(const RingSpace& space, const MeshSolution& solution, Result& result) {
   const Work::Phase phase(result.work, "measurement");
-  const auto& [problem, contact, displacement, energy, residuals] = solution;
+  const auto& [scene, problem, contact, stiffness, displacement, energy, residuals] = solution;
   result.mesh = describe_mesh(space);
-  result.patch = measure_contact_patch(scene, space.contact_nodes(), problem, contact);
+  result.road_distance = scene.road_distance;
+  result.patch = measure_contact(scene, space.contact_nodes(), problem, contact);
+  result.patch.stiffness = stiffness;
   result.energy = energy;
   result.residuals = residuals;
   result.contact_rows = tabulate_contact(space, problem, contact.state);

@@ -1,8 +1,13 @@
 #include "rollwave/scene/road.h"
 
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace rollwave {
+
+using namespace dealii;
 
 double from_lowest_point(double z) {
   constexpr double rounded = 4.71238898038468985769, // the double nearest to 3 pi/2
@@ -10,18 +15,54 @@ double from_lowest_point(double z) {
   return (z - rounded) - rest;
 }
 
-std::function<double(double)> flat_road(double outer_radius, double distance) {
-  return [=](double z) {
-    const double x = from_lowest_point(z), sine = std::sin(x / 2);
-    return (distance - outer_radius) + 2 * distance * sine * sine / std::cos(x);
-  };
+double Road::root(double x) const {
+  if (curvature == 0)
+    return std::cos(x);
+  const double t = (1 + curvature * distance) * std::sin(x);
+  return (curvature < 0 || std::cos(x) > 0) && std::abs(t) < 1 ? std::sqrt((1 - t) * (1 + t)) : 0;
 }
 
-std::function<double(double)> flat_road_slope(double distance) {
-  return [=](double z) {
-    const double x = from_lowest_point(z), cosine = std::cos(x);
-    return distance * std::sin(x) / (cosine * cosine);
-  };
+double Road::displacement(double x) const {
+  const double c = distance, b = outer_radius, half = std::sin(x / 2), square = half * half;
+  if (curvature == 0)
+    return (c - b) + 2 * c * square / std::cos(x);
+  const double m = 1 + curvature * c, s = root(x);
+  if (s == 0)
+    return std::max(b, std::sqrt(c * c + 2 * c / curvature) - b);
+  const double sine = m * std::sin(x);
+  return (c - b) + c * (2 * m * square + sine * sine / (1 + s)) / (m * std::cos(x) + s);
+}
+
+double Road::slope(double x) const {
+  const double s = root(x);
+  if (curvature == 0)
+    return distance * std::sin(x) / (s * s);
+  return s == 0 ? 0
+                : (outer_radius + displacement(x)) * (1 + curvature * distance) * std::sin(x) / s;
+}
+
+double Road::lift(double x) const {
+  const double s = root(x), sine = std::sin(x);
+  if (curvature == 0)
+    return 1 / s;
+  return s == 0 ? 0 : std::cos(x) + (1 + curvature * distance) * sine * sine / s;
+}
+
+double Road::lift_slope(double x) const {
+  const double s = root(x), sine = std::sin(x);
+  return s == 0 ? 0 : curvature * sine * sine / (s * s * s);
+}
+
+double Road::crossing_angle(double free) const {
+  // On the circle 1 - cos x = depth (2 - kappa depth) / (2 rho m), depth = rho - c.
+  const double c = distance, m = 1 + curvature * c, rho = outer_radius + free;
+  const double depth = (outer_radius - c) + free;
+  if (depth <= 0)
+    return 0;
+  if (curvature > 0 && rho >= std::sqrt(c * c + 2 * c / curvature))
+    return std::asin(1 / m);
+  const double square = depth * (2 - curvature * depth) / (4 * rho * m);
+  return 2 * std::asin(std::sqrt(std::min(square, 1.)));
 }
 
 } // namespace rollwave

@@ -1,15 +1,16 @@
 #include "rollwave/scene/scene.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/exact/uniform_force.h"
 #include "rollwave/scene/force_expression.h"
 #include "rollwave/scene/road.h"
+#include "rollwave/scene/uniform_force.h"
 
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace rollwave {
 
@@ -46,8 +47,8 @@ void check_cylinder(const CylinderOptions& cylinder) {
                                     "than the waves"));
 }
 
-void check_road(const CylinderOptions& cylinder, const RoadOptions& road) {
-  const double b = cylinder.outer_radius, c = road.distance;
+void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double c) {
+  const double b = cylinder.outer_radius;
   const auto refuse = [&](const std::string& key, const std::string& wanted) {
     throw BadValue("Road", key, wanted);
   };
@@ -65,19 +66,23 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road) {
            text("the zone of possible contact, where phi < b, is empty; it must be less "
                 "than twice the outer radius ",
                 b));
+  if (road.curvature < 0 && -1 / road.curvature <= std::max(b, c))
+    refuse("Curvature", text("the road is the inside of a drum of the radius ", -1 / road.curvature,
+                             ", which must be larger than the cylinder and the distance"));
 }
 
-/// Half the angle in which the surface can touch a flat road. Contact pushes inwards, so that u <=
+/// Half the angle in which the surface can touch the road. Contact pushes inwards, so that u <=
 /// u_f, the displacement without contact: where the force is uniform, contact ends before phi =
 /// u_f. Two cells are added, since contact that ends within a cell is felt next to it. An uneven
 /// force has phi < b as its limit, and no zone goes beyond that.
-double possible_half_width(const Scene& scene, double distance, unsigned int angular_cells) {
+double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
-  const double widest = std::acos(distance / (2 * b));
+  const Road road = scene.road_at(scene.load ? scene.least_distance : scene.road_distance);
+  const double widest = std::min(road.crossing_angle(b), 3.);
   if (scene.has_uneven_force())
     return widest;
   const double free = scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b);
-  return std::min(widest, crossing_angle(b, distance, free) + 4 * numbers::PI / angular_cells);
+  return std::min(widest, road.crossing_angle(free) + 4 * numbers::PI / angular_cells);
 }
 
 } // namespace
@@ -88,37 +93,50 @@ std::string force_not_finite_at(const Scene& scene, double r, double z) {
   return text.str();
 }
 
+Scene with_distance(Scene scene, double c) {
+  const Road road = scene.road_at(c);
+  scene.road_distance = c;
+  scene.road = [road](double z) { return road.displacement(from_lowest_point(z)); };
+  scene.road_slope = [road](double z) { return road.slope(from_lowest_point(z)); };
+  return scene;
+}
+
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                  unsigned int angular_cells) {
   check_cylinder(cylinder);
-  check_road(cylinder, road);
+  const double a = cylinder.inner_radius, b = cylinder.outer_radius;
+  const double least_distance = std::max(a, 0.05 * b); // for a given load
+  const double distance = road.load ? least_distance + (b - least_distance) / 2 : road.distance;
+  check_road(cylinder, road, distance);
 
   Scene scene;
-  const double unit = std::ldexp(1., std::ilogb(cylinder.outer_radius));
+  const double unit = std::ldexp(1., std::ilogb(b));
   scene.unit = unit;
-  scene.inner_radius = cylinder.inner_radius / unit;
-  scene.outer_radius = cylinder.outer_radius / unit;
+  scene.inner_radius = a / unit;
+  scene.outer_radius = b / unit;
   scene.angular_velocity = cylinder.angular_velocity * unit;
   scene.force_text = cylinder.radial_force;
   const std::optional<double> constant = constant_force(cylinder.radial_force);
   if (!constant)
-    scene.force = [unit, f = parse_force(cylinder.radial_force,
-                                         (cylinder.inner_radius + cylinder.outer_radius) / 2)](
-                      double r, double z) { return unit * f(unit * r, z); };
+    scene.force = [unit, f = parse_force(cylinder.radial_force, (a + b) / 2)](double r, double z) {
+      return unit * f(unit * r, z);
+    };
   else if (*constant != 0) { // for 0 no load is ever assembled
     scene.uniform_force = unit * *constant;
     scene.force = [f = *scene.uniform_force](double, double) { return f; };
   }
-  const double distance = scene.road_distance = road.distance / unit;
   scene.has_given_zone = road.contact_zone.has_value();
-  scene.road = flat_road(scene.outer_radius, distance);
-  scene.road_slope = flat_road_slope(distance);
+  scene.road_curvature = road.curvature * unit;
+  scene.least_distance = least_distance / unit;
+  if (road.load)
+    scene.load = Scene::Load{*road.load / unit, road.load_kind};
+  scene = with_distance(std::move(scene), distance / unit);
 
   if (const auto& zone = road.contact_zone) {
     scene.zone_begin = zone->first;
     scene.zone_end = zone->second;
   } else {
-    const double half_width = possible_half_width(scene, distance, angular_cells);
+    const double half_width = possible_half_width(scene, angular_cells);
     scene.zone_begin = 3 * numbers::PI / 2 - half_width;
     scene.zone_end = 3 * numbers::PI / 2 + half_width;
   }

@@ -1,12 +1,15 @@
 #include "rollwave/verify/reference_solution.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/contact/contact_problem.h"
 
+#include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace rollwave {
 
@@ -21,13 +24,34 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene) {
   if (narrow <= 0)
     return {};
   try {
-    const ExactSolution exact =
-        solve_exactly({scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-                       scene.road_distance, scene.uniform_force.value_or(0), narrow});
+    const ExactSolution exact = solve_exactly(
+        {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road_distance,
+         scene.uniform_force.value_or(0), narrow, scene.road_curvature});
     if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
       return {};
     return exact;
   } catch (const NotSolved&) {
+    return {};
+  }
+}
+
+std::optional<double> find_exact_distance(const Scene& scene) {
+  const auto excess = [&](double c) {
+    const auto exact = find_exact_solution(with_distance(scene, c));
+    if (!exact)
+      throw NotSolved("no exact solution is known at the distance " + std::to_string(c));
+    const Loads loads = {exact->force, exact->vertical_load, exact->work_conjugate_load};
+    return loads.of(scene.load->kind) - scene.load->value;
+  };
+  constexpr double first_step = 1e-4;
+  constexpr int bits = 37; // 1e-11
+  std::uintmax_t most_evaluations = 60;
+  try {
+    const auto [near, far] = boost::math::tools::bracket_and_solve_root(
+        excess, scene.road_distance, 1 + first_step, false,
+        boost::math::tools::eps_tolerance<double>(bits), most_evaluations);
+    return (near + far) / 2;
+  } catch (const std::exception&) {
     return {};
   }
 }

@@ -5,26 +5,39 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace rollwave {
 
+/// One stretch of the surface in contact.
+struct ContactPatch {
+  double begin; ///< an angle
+  double end;
+  double force;    ///< b int lambda dz over the stretch
+  double centroid; ///< int lambda z dz / int lambda dz, an angle
+  double peak_pressure;
+};
+
 /// What the road feels of the contact. Forces are per unit length of the axle and unit shear
 /// modulus, so that they are lengths, like the displacement.
-struct ContactPatch {
-  /// The angles at which contact begins and ends; nullopt without contact.
-  std::optional<std::pair<double, double>> ends;
-  double force;         ///< F = b int lambda dz
-  double vertical_load; ///< b int lambda cos(z - 3 pi/2) dz
-  double
-      work_conjugate_load; ///< G = b int lambda / cos(z - 3 pi/2) dz, that is -dJ/dc on a flat road
-  double peak_pressure;    ///< max lambda_i
-  unsigned int active_nodes;
+struct ContactResultants {
+  std::vector<ContactPatch> patches; ///< by increasing angle
 
-  double half_width() const { return ends ? (ends->second - ends->first) / 2 : 0; }
+  /// Where the first patch begins and the last one ends; nullopt without contact.
+  std::optional<std::pair<double, double>> ends;
+  double force;               ///< F = b int lambda dz
+  double vertical_load;       ///< b int lambda cos(z - 3 pi/2) dz
+  double work_conjugate_load; ///< G = b int lambda dphi/dc dz, that is -dJ/dc
+  double peak_pressure;       ///< max lambda_i
+  unsigned int active_nodes;
+  Loads stiffness; ///< of the three loads, see contact_stiffness()
+
+  /// Half of the length in contact, an angle.
+  double half_width() const;
 };
 
 /**
- * Resultants by the rule [.,.]_h of SurfaceNode and the ends of contact.
+ * Resultants by the rule [.,.]_h of SurfaceNode and the ends of each patch.
  *
  * Outside of an end, at the distance d, the gap grows like d^(1+s), and inside the pressure like
  * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) is linear in
@@ -34,8 +47,8 @@ struct ContactPatch {
  * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
  * used when the nodes are further apart than that.
  */
-ContactPatch measure_contact_patch(const Scene& scene, const std::vector<SurfaceNode>& nodes,
-                                   const ContactProblem& problem, const ContactSolution& solution);
+ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
+                                  const ContactProblem& problem, const ContactSolution& solution);
 
 } // namespace rollwave
 

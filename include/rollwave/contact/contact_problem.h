@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
 #define ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
 
+#include "rollwave/scene/road.h"
+#include "rollwave/scene/scene.h"
 #include "rollwave/solver/contact_linear_solver.h"
 
 #include <optional>
@@ -40,11 +42,27 @@ struct ContactOptions {
 struct ContactProblem {
   dealii::Vector<double> road;           ///< phi_i, a length
   dealii::Vector<double> weight;         ///< the nodes' areas, see SurfaceNode
+  std::vector<double> x;                 ///< the nodes' angles from the lowest point
+  Road shape;                            ///< of the road that phi_i belongs to
   double unit = 1;                       ///< of length, Scene::unit
   MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
 
   unsigned int size() const { return road.size(); }
 };
+
+/// The three loads that are in use, b int lambda q dz: q = 1, q = cos x, and q = dphi/dc.
+struct Loads {
+  double total;
+  double vertical;
+  double work_conjugate;
+
+  double of(LoadKind kind) const {
+    return kind == LoadKind::total ? total : kind == LoadKind::vertical ? vertical : work_conjugate;
+  }
+};
+
+/// The loads of nodal forces by the rule [.,.]_h.
+Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& force);
 
 /// What the residuals of a solved scene are to be: relative to its data.
 constexpr double wanted_residual = 1e-10;

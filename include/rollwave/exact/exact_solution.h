@@ -1,20 +1,10 @@
 #ifndef ROLLWAVE_EXACT_EXACT_SOLUTION_H
 #define ROLLWAVE_EXACT_EXACT_SOLUTION_H
 
+#include "rollwave/exact/exact_scene.h"
 #include "rollwave/exact/gegenbauer_pressure.h"
 
 namespace rollwave {
-
-/// The scenes that have a semi-analytic answer: a flat road, a constant force density and a zone of
-/// possible contact |z - 3 pi/2| <= zone_half_width, which may cut the contact short.
-struct ExactScene {
-  double inner_radius;
-  double outer_radius;
-  double angular_velocity;
-  double road_distance;
-  double force_density;
-  double zone_half_width = 1.5707963267948966;
-};
 
 /**
  * The semi-analytic solution of a contact problem, without any mesh. With x = z - 3 pi/2, the
@@ -33,10 +23,12 @@ struct ExactScene {
  */
 struct ExactSolution {
   ExactScene scene;
-  double half_width;   ///< w; 0 without contact
-  double force;        ///< F = b int lambda dz
-  double energy;       ///< J(u)
-  double norm_squared; ///< a(u, u)
+  double half_width;          ///< w; 0 without contact
+  double force;               ///< F = b int lambda dz
+  double vertical_load;       ///< b int lambda cos x dz
+  double work_conjugate_load; ///< G = b int lambda dphi/dc dz, that is -dJ/dc
+  double energy;              ///< J(u)
+  double norm_squared;        ///< a(u, u)
   double peak_pressure;
 
   /// What is believed to have been reached, relative: numbers are limits of the growing series.
@@ -58,9 +50,6 @@ struct ExactSolution {
 
 /// @throws NotSolved when the series does not settle.
 ExactSolution solve_exactly(const ExactScene& scene);
-
-/// u_f(r), the displacement under the constant force density f without contact.
-double contact_free_displacement(const ExactScene& scene, double r);
 
 } // namespace rollwave
 

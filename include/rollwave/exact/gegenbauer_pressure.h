@@ -20,6 +20,8 @@ namespace rollwave {
  */
 class GegenbauerPressure {
 public:
+  GegenbauerPressure() = default; ///< none
+
   GegenbauerPressure(double middle, double half_width, double nu,
                      const std::vector<double>& coefficients);
 
@@ -39,7 +41,7 @@ public:
   double order() const { return nu; }
 
 private:
-  double m, w, nu;
+  double m = 0, w = 1, nu = 1;
   std::vector<double> a;
 };
 

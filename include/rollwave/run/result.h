@@ -24,8 +24,8 @@ struct Energy {
   double norm_squared; ///< a(u_h, u_h)
 };
 
-/// Guaranteed bounds of the work-conjugate load G, see bound_load().
-struct LoadBounds {
+/// Guaranteed bounds, see bound_load() and bound_distance().
+struct Bounds {
   double lower;
   double upper;
 };
@@ -64,6 +64,7 @@ struct TrueErrors {
   double force;                ///< |F - F_h|
   double energy;               ///< |J(u) - J(u_h)|
   double half_width;           ///< |w - w_h|
+  std::optional<double> exact_distance; ///< where a load is given
 
   /// sqrt(a(u - v, u - v)) of the feasible displacement v that the certificate speaks of, and the
   /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate, and
@@ -100,16 +101,18 @@ struct SurfacePoint {
 /// All numbers of one solved scene, lengths in the unit of the scene.
 struct Result {
   MeshFigures mesh;
-  ContactPatch patch;
+  double road_distance; ///< c, a length
+  ContactResultants patch;
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;
-  std::optional<LoadBounds> load_bounds;
-  std::optional<TrueErrors> errors; ///< where a comparison was asked for
-  std::vector<CycleFigures> cycles; ///< one for each mesh
-  std::vector<ContactStep> history; ///< on the last mesh
-  double rho;                       ///< Uzawa's step length; 0 for the active set method
-  std::vector<std::string> remarks; ///< what a reader of the figures should know
+  std::optional<Bounds> load_bounds;     ///< of the work-conjugate load G
+  std::optional<Bounds> distance_bounds; ///< where that load is given
+  std::optional<TrueErrors> errors;      ///< where a comparison was asked for
+  std::vector<CycleFigures> cycles;      ///< one for each mesh
+  std::vector<ContactStep> history;      ///< on the last mesh
+  double rho;                            ///< Uzawa's step length; 0 for the active set method
+  std::vector<std::string> remarks;      ///< what a reader of the figures should know
   /// What was wanted and not reached, with the keys to change.
   std::vector<std::string> shortfalls;
   bool is_interrupted = false; ///< by the user: the shortfalls say after what

@@ -5,6 +5,7 @@
 #include "rollwave/mesh/ring_space.h"
 #include "rollwave/run/mesh_cache.h"
 #include "rollwave/run/result.h"
+#include "rollwave/scene/scene.h"
 
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@ namespace rollwave {
 
 /// A solved scene with its field; the members are listed in the order of their dependence.
 struct Solution {
+  Scene scene; ///< with the distance that a given load needs
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
   std::unique_ptr<RingSpace> space;
   MeshCache system;         ///< empty but for what simulate_next() keeps

@@ -10,8 +10,10 @@ namespace rollwave {
 
 /// The discrete problem and its solution on one mesh.
 struct MeshSolution {
+  Scene scene; ///< with the distance that a given load needs
   ContactProblem problem;
   ContactSolution contact;
+  Loads stiffness;
   FieldVector displacement; ///< u_h
   Energy energy;            ///< of u_h
   Residuals residuals;
@@ -25,8 +27,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
                            const dealii::Vector<double>& start, MeshCache& system, Work& work);
 
 /// Fills in what @p result tells of a solution on one mesh, and adds to its cycles.
-void measure(const Scene& scene, const RingSpace& space, const MeshSolution& solution,
-             Result& result);
+void measure(const RingSpace& space, const MeshSolution& solution, Result& result);
 
 } // namespace rollwave
 

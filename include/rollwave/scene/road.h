@@ -1,20 +1,45 @@
 #ifndef ROLLWAVE_SCENE_ROAD_H
 #define ROLLWAVE_SCENE_ROAD_H
 
-#include <functional>
-
 namespace rollwave {
 
 /// x = z - 3 pi/2, the angle from the lowest point, to the accuracy of z: 3 pi/2 is taken in two
 /// parts.
 double from_lowest_point(double z);
 
-/// phi(z) = -b - c / sin z for sin z < 0: a flat road at the distance c below the axle. Near the
-/// lowest point nothing cancels: phi = (c - b) + 2 c sin^2(x/2) / cos x, x = z - 3 pi/2.
-std::function<double(double)> flat_road(double outer_radius, double distance);
+/**
+ * A rigid road of the curvature kappa (0: flat, positive: the outside of a drum, negative: the
+ * inside of one) whose nearest point lies at the distance c below the axle. It lies at the radius
+ *
+ *     rho(x) = (2 c + kappa c^2) / (m cos x + S),   m = 1 + kappa c,   S = (1 - m^2 sin^2 x)^(1/2),
+ *
+ * which is c / cos x for kappa = 0. Derivatives follow from the circle that (x, rho) lies on. A
+ * drum ends for the axle's eye at its tangent, m sin x = 1; beyond, phi is b or more.
+ */
+struct Road {
+  double outer_radius;  ///< b, a length
+  double distance;      ///< c, a length
+  double curvature = 0; ///< kappa, one over a length
 
-/// phi'(z) = c cos z / sin^2 z of the same road.
-std::function<double(double)> flat_road_slope(double distance);
+  /// phi = rho - b, a length. Near the lowest point nothing cancels.
+  double displacement(double x) const;
+
+  /// dphi/dx = rho m sin x / S
+  double slope(double x) const;
+
+  /// dphi/dc = cos x + m sin^2 x / S, which is 1 / cos x on a flat road
+  double lift(double x) const;
+
+  /// d^2 phi/dc^2 = kappa sin^2 x / S^3
+  double lift_slope(double x) const;
+
+  /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
+  /// does not reach so far; 0 where the surface is above the road.
+  double crossing_angle(double free) const;
+
+private:
+  double root(double x) const; ///< S, 0 beyond the tangent
+};
 
 } // namespace rollwave
 

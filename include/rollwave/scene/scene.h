@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_SCENE_SCENE_H
 #define ROLLWAVE_SCENE_SCENE_H
 
+#include "rollwave/scene/road.h"
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -16,9 +18,18 @@ struct CylinderOptions {
   std::string radial_force = "0";
 };
 
+enum class LoadKind {
+  vertical,      ///< "vertical": what the axle carries
+  total,         ///< "total": the integral of the pressure
+  work_conjugate ///< "work-conjugate": what does work when the distance changes
+};
+
 /// Section `Road`.
 struct RoadOptions {
   double distance = 0.8;
+  std::optional<double> load; ///< a force over the shear modulus, by the axle's length: a length
+  LoadKind load_kind = LoadKind::vertical;
+  double curvature = 0;
   std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
 };
 
@@ -81,8 +92,20 @@ struct Scene {
 
   double unit = 1; ///< the unit of length, in the user's lengths
 
-  double road_distance = 0;    ///< c of a flat road, a length
+  double road_distance = 0;  ///< c, a length
+  double road_curvature = 0; ///< kappa, one over a length
+
+  /// The load that tells the distance, a length; road_distance is a guess then.
+  struct Load {
+    double value;
+    LoadKind kind;
+  };
+  std::optional<Load> load = {};
+  double least_distance = 0;   ///< the road can be no nearer than this
   bool has_given_zone = false; ///< whether the user has given the zone
+
+  /// The road at the distance @p c.
+  Road road_at(double c) const { return {outer_radius, c, road_curvature}; }
 
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
@@ -91,6 +114,9 @@ struct Scene {
 /// What is wrong with a force that is not finite at a point, r in the scene's unit.
 std::string force_not_finite_at(const Scene& scene, double r, double z);
 
+/// The scene with its road moved to the distance @p c below the axle, a length. The zone stays.
+Scene with_distance(Scene scene, double c);
+
 /**
  * The scene that options describe.
  *
@@ -98,7 +124,8 @@ std::string force_not_finite_at(const Scene& scene, double r, double z);
  *
  * @param angular_cells those of the first mesh: an automatic zone is two cells wider than contact
  * @throws BadValue unless 0 < a < b, 0 <= omega <= 1/b, a < c, c < 2 b with an automatic zone,
- *         pi < z0 < z1 < 2 pi and the force can be parsed and is finite.
+ *         -1/kappa > b and c for kappa < 0, pi < z0 < z1 < 2 pi and the force can be parsed and is
+ * finite.
  */
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                  unsigned int angular_cells);

@@ -12,6 +12,10 @@ namespace rollwave {
 /// that cuts the contact short on one side or unevenly, or a series that does not settle.
 std::optional<ExactSolution> find_exact_solution(const Scene& scene);
 
+/// The distance at which the exact solution has the load of Scene::load, to 1e-11 of it, sought
+/// around that of @p scene; nullopt where no exact solution is known.
+std::optional<double> find_exact_distance(const Scene& scene);
+
 } // namespace rollwave
 
 #endif

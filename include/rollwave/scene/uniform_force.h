@@ -1,5 +1,5 @@
-#ifndef ROLLWAVE_EXACT_UNIFORM_FORCE_H
-#define ROLLWAVE_EXACT_UNIFORM_FORCE_H
+#ifndef ROLLWAVE_SCENE_UNIFORM_FORCE_H
+#define ROLLWAVE_SCENE_UNIFORM_FORCE_H
 
 namespace rollwave {
 
@@ -21,10 +21,6 @@ double contact_free_unit_displacement(double inner_radius, double outer_radius, 
 /// int_a^b r u_1(r) dr = int_a^b (b^2 - r^2)^2 / (4 r) dr: the work of that force for each radian,
 /// a length to the fourth.
 double contact_free_unit_work(double inner_radius, double outer_radius);
-
-/// The angle from the lowest point at which a surface of the radius b + @p free meets a flat road
-/// at the distance @p distance, which is less than 2 b + @p free; 0 where it does not.
-double crossing_angle(double outer_radius, double distance, double free);
 
 } // namespace rollwave
 

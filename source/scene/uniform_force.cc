@@ -1,4 +1,4 @@
-#include "rollwave/exact/uniform_force.h"
+#include "rollwave/scene/uniform_force.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/log1p.hpp>
@@ -29,12 +29,6 @@ double contact_free_unit_work(double inner_radius, double outer_radius) {
   return b * b * b * b / 4 *
          boost::math::quadrature::gauss<double, 20>::integrate(
              [](double t) { return std::pow(std::expm1(-2 * t), 2); }, 0, log_of_ratio(b, a));
-}
-
-double crossing_angle(double outer_radius, double distance, double free) {
-  // cos x = distance / radius, that is 1 - cos x = depth / radius
-  const double depth = (outer_radius - distance) + free;
-  return depth > 0 ? 2 * std::asin(std::sqrt(depth / (2 * (outer_radius + free)))) : 0;
 }
 
 } // namespace rollwave

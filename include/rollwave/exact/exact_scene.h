@@ -1,0 +1,31 @@
+#ifndef ROLLWAVE_EXACT_EXACT_SCENE_H
+#define ROLLWAVE_EXACT_EXACT_SCENE_H
+
+#include "rollwave/scene/road.h"
+#include "rollwave/scene/uniform_force.h"
+
+namespace rollwave {
+
+/// The scenes that have a semi-analytic answer: a road of constant curvature, a constant force
+/// density and a zone of possible contact |z - 3 pi/2| <= zone_half_width, which may cut the
+/// contact short.
+struct ExactScene {
+  double inner_radius;
+  double outer_radius;
+  double angular_velocity;
+  double road_distance;
+  double force_density;
+  double zone_half_width = 1.5707963267948966;
+  double road_curvature = 0;
+
+  Road road() const { return {outer_radius, road_distance, road_curvature}; }
+
+  /// u_f(r), the displacement without contact, a length.
+  double contact_free_displacement(double r) const {
+    return force_density * contact_free_unit_displacement(inner_radius, outer_radius, r);
+  }
+};
+
+} // namespace rollwave
+
+#endif

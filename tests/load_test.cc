@@ -1,0 +1,106 @@
+// A prescribed load: the distance that gives it, against the exact answer.
+#include "rollwave/base/errors.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/verify/reference_solution.h"
+
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace rollwave;
+
+namespace {
+
+Solution solve_for(const std::vector<std::string>& settings) {
+  const Parameters parameters = parameters_of(settings);
+  return simulate(make_scene(parameters), parameters);
+}
+
+TEST(Load, GivesBackTheDistanceOfTheExactAnswer) {
+  for (const std::string force : {"0", "1"})
+    for (const std::string omega : {"0", "1"}) {
+      const std::vector<std::string> settings = {"Cylinder/Radial force=" + force,
+                                                 "Cylinder/Angular velocity=" + omega};
+      const auto exact = *find_exact_solution(make_scene(parameters_of(settings)));
+      for (const auto& [kind, load] :
+           {std::pair("vertical", exact.vertical_load), std::pair("total", exact.force),
+            std::pair("work-conjugate", exact.work_conjugate_load)}) {
+        std::vector<std::string> with_load = settings;
+        with_load.insert(with_load.end(),
+                         {"Road/Load=" + digits(load), std::string("Road/Load kind=") + kind,
+                          "Mesh/Radial cells=6", "Mesh/Angular cells=120"});
+        const Solution solution = solve_for(with_load);
+        EXPECT_NEAR(solution.result.road_distance, 0.8, 1e-4) << kind;
+        const Loads loads = {solution.result.patch.force, solution.result.patch.vertical_load,
+                             solution.result.patch.work_conjugate_load};
+        EXPECT_NEAR(loads.of(solution.scene.load->kind), load, 1e-9 * load);
+        if (std::string(kind) == "vertical") {
+          EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), 0.8, 8e-9);
+        }
+      }
+    }
+}
+
+TEST(Load, TakesNoFurtherFactorisation) {
+  const auto factorisations = [](const std::string& setting) {
+    return solve_for({setting, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
+                      "Certificate/Error bound=false"})
+        .result.work.factorisations;
+  };
+  EXPECT_EQ(factorisations("Road/Load=0.3"), factorisations("Road/Distance=0.8"));
+}
+
+TEST(Load, IsMetOnEveryMeshAndByEveryMethod) {
+  for (const std::string setting :
+       {"Mesh/Wanted relative error=1e-2", "Contact/Method=uzawa", "Solver/Kind=iterative",
+        "Cylinder/Inner radius=0.99", "Road/Load=1e-5", "Road/Curvature=1",
+        "Cylinder/Radial force=cos(3*z)", "Road/Contact zone=4.5, 5"}) {
+    const Solution solution =
+        solve_for({"Road/Load=0.02", "Mesh/Radial cells=3", "Mesh/Angular cells=60", setting});
+    const double load = solution.scene.load->value;
+    EXPECT_NEAR(solution.result.patch.vertical_load / load, 1, 1e-6) << setting;
+    EXPECT_TRUE(solution.result.shortfalls.empty());
+  }
+}
+
+TEST(Load, ThatNoDistanceGivesIsRefusedWithTheLargest) {
+  try {
+    solve_for({"Road/Load=30", "Mesh/Radial cells=4", "Mesh/Angular cells=48"});
+    FAIL();
+  } catch (const BadValue& refused) {
+    EXPECT_EQ(refused.key, "Load");
+    EXPECT_NE(refused.wanted.find("at 0.5"), std::string::npos) << refused.wanted;
+  }
+  EXPECT_THROW(parameters_of({"Road/Load=0"}), BadInput);
+  EXPECT_THROW(parameters_of({"Road/Load=1", "Road/Distance=0.8"}), BadInput);
+}
+
+TEST(Load, DistanceIsEnclosed) {
+  const auto exact = *find_exact_solution(make_scene(parameters_of({})));
+  const Solution solution =
+      solve_for({"Road/Load=" + digits(exact.work_conjugate_load), "Road/Load kind=work-conjugate",
+                 "Certificate/Load bounds=true", "Mesh/Wanted relative error=1e-3"});
+  ASSERT_TRUE(solution.result.distance_bounds);
+  EXPECT_LE(solution.result.distance_bounds->lower, 0.8);
+  EXPECT_GE(solution.result.distance_bounds->upper, 0.8);
+  EXPECT_LT(solution.result.distance_bounds->upper - solution.result.distance_bounds->lower, 1e-2);
+}
+
+TEST(Patches, ThatAForcePartsAreToldOneByOne) {
+  const Solution solution = solve_for({"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)",
+                                       "Mesh/Radial cells=6", "Mesh/Angular cells=180"});
+  const ContactResultants& contact = solution.result.patch;
+  ASSERT_EQ(contact.patches.size(), 2u);
+  const auto &left = contact.patches[0], &right = contact.patches[1];
+  EXPECT_LT(left.end, 4.71238898);
+  EXPECT_GT(right.begin, 4.71238898);
+  EXPECT_NEAR(left.force + right.force, contact.force, 1e-12);
+  EXPECT_NEAR(left.force, right.force, 1e-6);
+  EXPECT_NEAR(left.centroid + right.centroid, 3 * M_PI, 1e-5);
+  EXPECT_LT(left.begin, left.centroid);
+  EXPECT_LT(left.centroid, left.end);
+}
+
+} // namespace
