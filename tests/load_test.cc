@@ -36,7 +36,7 @@ TEST(Load, GivesBackTheDistanceOfTheExactAnswer) {
         const Loads loads = {solution.result.patch.force, solution.result.patch.vertical_load,
                              solution.result.patch.work_conjugate_load};
         EXPECT_NEAR(loads.of(solution.scene.load->kind), load, 1e-9 * load);
-        if (std::string(kind) == "vertical") {
+        if (kind == std::string("vertical") && force == "1" && omega == "0") {
           EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), 0.8, 8e-9);
         }
       }
