@@ -240,10 +240,8 @@ void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communi
 }
 
 /// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
-/// iterative kind a new preconditioner, and a given load takes several iterations.
+/// iterative kind a new preconditioner.
 bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
-  if (options.road.load)
-    return count_unknowns(options.mesh) > 1e4;
   constexpr double least_unknowns = 1e5;
   return (options.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
          options.contact.method == ContactMethod::active_set &&
