@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
-# Sets everything up on Debian 12 and runs the program or its tests; see usage() below.
+# Sets everything up on Debian 12 or 13 and runs the program or its tests; see usage() below.
 set -euo pipefail
+started_in=$PWD
 cd "$(dirname "$0")"
 
 usage() {
   cat <<'TEXT'
-Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: prm/figure-4.prm)
+Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 of the paper)
        ./bootstrap.sh test [OPTIONS of ctest]
        ./bootstrap.sh test --long                            (300 random scenes of each kind)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
        ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
 
-Each installs the Debian packages that are missing, builds in ./build (sanitize: ./build-sanitize),
-and runs.
+Each installs the Debian packages that are missing, builds in ./build (sanitize: ./build-sanitize)
+beside this script, and runs; the program where you stand, with paths from there.
 TEXT
 }
 
-program_packages=(g++ cmake ninja-build libdeal.ii-dev libsuitesparse-dev libopenblas0-pthread
-  nlohmann-json3-dev gnuplot-nox openmpi-bin libhypre-dev)
+# mold is the linker that Debian 13's deal.II asks for.
+program_packages=(g++ cmake ninja-build mold libdeal.ii-dev libsuitesparse-dev
+  libopenblas0-pthread nlohmann-json3-dev gnuplot-nox openmpi-bin libhypre-dev)
 test_packages=(libgtest-dev python3-vtk9 clang libclang-rt-dev)
 
 install_missing() {
@@ -58,8 +60,10 @@ run)
   shift
   install_missing "${program_packages[@]}"
   build rollwave build -DBUILD_TESTING=OFF
-  [ $# -gt 0 ] || set -- prm/figure-4.prm
-  exec build/rollwave "$@"
+  root=$PWD
+  [ $# -gt 0 ] || set -- "$root/prm/figure-4.prm"
+  cd "$started_in"
+  exec "$root/build/rollwave" "$@"
   ;;
 test)
   shift
@@ -80,9 +84,7 @@ sanitize)
 benchmark)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
   build all build -DBUILD_TESTING=ON
-  build/tests/rollwave_benchmark
-  build/tests/rollwave_multigrid
-  exec build/tests/rollwave_phases
+  exec build/tests/rollwave_benchmark
   ;;
 scaling)
   install_missing "${program_packages[@]}" "${test_packages[@]}"

@@ -67,7 +67,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
 } // namespace
 
 void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
-  const Parameters parameters = read_parameters(settings_of(line));
+  const Parameters parameters = read_parameters(settings_of(line, processes.communicator()));
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");

@@ -1,12 +1,8 @@
-// What contact costs: the time of the whole contact solve over that of one plain factorisation and
-// solve of the same matrix, both measured in turn in one run. Assembly is left out of both. And
-// what the indicator and the certificate cost beside the solve, with its assembly, on the same
-// mesh.
-#include "rollwave/adapt/residual_indicator.h"
+// What a run costs: the whole contact solve beside one plain factorisation and solve of the same
+// matrix, in turn; the seconds of each phase and the peak memory on meshes from 1e3 to 1e6
+// unknowns. Tables in Markdown.
+#include "rollwave/base/memory.h"
 #include "rollwave/contact/active_set.h"
-#include "rollwave/error_bound/error_bound.h"
-#include "rollwave/run/solve_on_mesh.h"
-#include "rollwave/solver/cholmod_assembly.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/timer.h>
@@ -15,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <tuple>
 
 using namespace rollwave;
 
@@ -52,32 +47,22 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
   return seconds;
 }
 
-/// Everything from ordering and triplets to the displacement field; @p steps is set to the contact
-/// steps.
-double contact_seconds(const Scene& scene, const Parameters& parameters, std::size_t& steps) {
+/// Everything from ordering and triplets to the displacement field, without assembly.
+double contact_seconds(const Scene& scene, const Parameters& parameters) {
   const Discretisation ring(scene, parameters); // whose order of elimination is yet to be found
   Work work;
-  const dealii::Timer timer;
   DirectSolver solver(ring.space);
   solver.turn_to(scene, {}, work);
-  const ContactSolution contact = active_set(solver, make_contact_problem(ring.space, scene), 100);
-  const FieldVector field = solver.displacement_field(contact.state);
-  const double seconds = timer.wall_time();
-  steps = contact.history.size();
+  {
+    const Work::Phase phase(work, "contact");
+    const auto contact = active_set(solver, make_contact_problem(ring.space, scene), 100);
+    solver.displacement_field(contact.state);
+  }
+  double seconds = work.total_seconds();
   for (const auto& [phase, phase_seconds] : work.seconds())
     if (phase == "assembly")
-      return seconds - phase_seconds;
+      seconds -= phase_seconds;
   return seconds;
-}
-
-/// The numbers of the unknowns in the order of the degrees of freedom.
-std::vector<int> number_plainly(const RingSpace& space) {
-  std::vector<int> unknown_of_dof(space.dof_handler().n_dofs(), -1);
-  int unknown = 0;
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (!space.constraints().is_constrained(dof))
-      unknown_of_dof[dof] = unknown++;
-  return unknown_of_dof;
 }
 
 double median(std::vector<double> values) {
@@ -85,100 +70,62 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-void benchmark(const PaperScene& paper, int degree, int radial_cells, int angular_cells) {
-  const Parameters parameters =
-      with(paper.parameters(), {"Mesh/Degree=" + std::to_string(degree),
-                                "Mesh/Radial cells=" + std::to_string(radial_cells),
-                                "Mesh/Angular cells=" + std::to_string(angular_cells)});
+void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& mesh) {
+  const Parameters parameters = with(paper.parameters(), mesh);
   const Scene scene = make_scene(parameters);
   const Discretisation ring(scene, parameters);
-  const int n = ring.space.n_unknowns();
-  // The minimum degree ordering depends on the order it is given.
-  const LowerTriplets triplets = assemble_triplets(ring.space, scene, number_plainly(ring.space));
-
+  SparseCholesky cholesky(ring.space);
+  cholesky.number_unknowns(ring.space.constraints());
+  const LowerTriplets triplets =
+      cholesky.assemble(ring.space.constraints(), stiffness_products(ring.space, scene));
   std::vector<double> plain, contact, ratio;
-  std::size_t steps = 0;
   for (int run = 0; run < 5; ++run) {
-    plain.push_back(plain_seconds(n, triplets));
-    contact.push_back(contact_seconds(scene, parameters, steps));
+    plain.push_back(plain_seconds(ring.space.n_unknowns(), triplets));
+    contact.push_back(contact_seconds(scene, parameters));
     ratio.push_back(contact.back() / plain.back());
   }
-  std::printf("%6d %6d %9d %13zu %13zu %10.4f %10.4f %8.3f\n", paper.figure, degree, n,
-              ring.space.contact_nodes().size(), steps, median(plain), median(contact),
-              median(ratio));
+  std::printf("| %d | %u | %u | %.4f | %.4f | %.2f |\n", paper.figure, parameters.mesh.degree,
+              ring.space.n_unknowns(), median(plain), median(contact), median(ratio));
   std::fflush(stdout);
 }
 
-/// The seconds of indicator and certificate over those of the solve.
-void benchmark_errors(const PaperScene& paper, const char* mesh,
-                      const std::vector<std::string>& settings) {
-  const Parameters parameters = with(paper.parameters(), settings);
-  const Scene scene = make_scene(parameters);
-  const Solution solved = simulate(scene, parameters);
-  std::vector<double> solve, indicator, certificate;
-  const int n_runs = solved.result.mesh.dofs < 20000 ? 25 : 5;
-  for (int run = 0; run < n_runs; ++run) {
-    Work work;
-    const dealii::Timer timer;
-    const RingSpace space(*solved.triangulation, scene, parameters.mesh.degree);
-    MeshCache system;
-    const MeshSolution solution = solve_on_mesh(scene, parameters, space, {}, system, work);
-    solve.push_back(timer.wall_time());
-    residual_indicator(space, scene, solution.problem, solution.contact, solution.displacement);
-    indicator.push_back((timer.wall_time() - solve.back()) / solve.back());
-    certify(space, scene, solution.problem, solution.contact, solution.displacement, system.load,
-            system.dual_of(scene, space, work), work);
-    certificate.push_back((timer.wall_time() - solve.back()) / solve.back() - indicator.back());
-  }
-  std::printf("%6d %6d %9s %9u %10.4f %10.2f %12.2f  %s\n", paper.figure, parameters.mesh.degree,
-              mesh, solved.result.mesh.dofs, median(solve), median(indicator), median(certificate),
-              parameters.cylinder.radial_force.c_str());
+void benchmark_phases(const PaperScene& paper, const std::vector<std::string>& mesh) {
+  const Parameters parameters = with(paper.parameters(), mesh);
+  const Result result = simulate(make_scene(parameters), parameters).result;
+  std::printf("| %d | %u | %u |", paper.figure, parameters.mesh.degree, result.mesh.dofs);
+  for (const auto& [phase, seconds] : result.work.seconds())
+    std::printf(" %s %.3g,", phase.c_str(), seconds);
+  std::printf(" | %.3g | %.0f |\n", result.work.total_seconds(), peak_memory_mib());
   std::fflush(stdout);
+}
+
+/// @p cells of degree 1, radial and angular; half as many of degree 2
+std::vector<std::string> uniform(int degree, std::pair<int, int> cells) {
+  return {"Mesh/Degree=" + std::to_string(degree),
+          "Mesh/Radial cells=" + std::to_string(cells.first / degree),
+          "Mesh/Angular cells=" + std::to_string(cells.second / degree)};
 }
 
 } // namespace
 
 int main() {
+  const std::vector<std::pair<int, int>> meshes = {{10, 110}, {28, 352}, {88, 1112}, {282, 3544}};
+  std::printf("Medians of 5 runs, seconds without assembly\n\n| figure | degree | unknowns | plain "
+              "[s] | contact [s] | ratio |\n|---|---|---|---|---|---|\n");
+  for (const int figure : {0, 1})
+    for (const int degree : {1, 2})
+      for (const auto& cells : meshes)
+        benchmark_contact(paper_scenes()[figure], uniform(degree, cells));
   std::printf(
-      "Medians of 5 runs; seconds without assembly.\n"
-      "figure degree  unknowns contact nodes contact steps  plain [s] contact[s]    ratio\n");
-  for (const PaperScene& paper : {paper_scenes()[0], paper_scenes()[1]}) {
-    benchmark(paper, 1, 28, 352);
-    benchmark(paper, 1, 88, 1112);
-    benchmark(paper, 1, 282, 3544);
-    benchmark(paper, 2, 14, 176);
-    benchmark(paper, 2, 44, 556);
-    benchmark(paper, 2, 141, 1772);
-  }
-  std::printf(
-      "\nMedians of 5 runs, of 25 below 20000 unknowns; solve from the degrees of freedom to "
-      "the displacement, the others over it.\n"
-      "figure degree      mesh  unknowns  solve [s]  indicator  certificate  force\n");
-  for (const int figure : {0, 1, 2}) {
-    const PaperScene& paper = paper_scenes()[figure];
-    benchmark_errors(paper, "uniform",
-                     {"Mesh/Degree=1", "Mesh/Radial cells=88", "Mesh/Angular cells=1112"});
-    benchmark_errors(paper, "uniform",
-                     {"Mesh/Degree=2", "Mesh/Radial cells=44", "Mesh/Angular cells=556"});
+      "\nUniform and adaptive meshes\n\n| figure | degree | unknowns | seconds of each phase "
+      "| all [s] | peak so far [MiB] |\n|---|---|---|---|---|---|\n");
+  for (const auto& cells : meshes)
+    for (const int figure : {0, 1})
+      for (const int degree : {2, 1})
+        benchmark_phases(paper_scenes()[figure], uniform(degree, cells));
+  for (const int figure : {0, 1})
     for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"})
-      benchmark_errors(paper, "adaptive",
+      benchmark_phases(paper_scenes()[figure],
                        {degree, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
-                        "Mesh/Adaptive cycles=1000", "Mesh/Most unknowns=60000"});
-  }
-  // Expressions: smooth, with a jump on a circle, around a spot, along a curve.
-  for (const char* force : {"1+0.5*r*cos(z)", "if(r<0.7123,1,0)", "if((r-0.7)^2+(z-3)^2<0.01,1,0)",
-                            "if(r<0.7+0.1*sin(3*z),1,0)"}) {
-    const std::string key = std::string("Cylinder/Radial force=") + force;
-    for (const auto& [degree, radial, angular] :
-         {std::tuple(1, 9, 112), std::tuple(2, 4, 56), std::tuple(1, 28, 352),
-          std::tuple(2, 14, 176), std::tuple(1, 88, 1112), std::tuple(2, 44, 556)})
-      benchmark_errors(paper_scenes()[0], "uniform",
-                       {key, "Mesh/Degree=" + std::to_string(degree),
-                        "Mesh/Radial cells=" + std::to_string(radial),
-                        "Mesh/Angular cells=" + std::to_string(angular)});
-    for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"})
-      benchmark_errors(paper_scenes()[0], "adaptive",
-                       {key, degree, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
-                        "Mesh/Adaptive cycles=1000", "Mesh/Most unknowns=60000"});
-  }
+                        "Mesh/Adaptive cycles=1000", "Mesh/Most unknowns=100000"});
 }

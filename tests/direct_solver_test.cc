@@ -3,7 +3,7 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/mesh/assembly.h"
-#include "rollwave/solver/cholmod_assembly.h"
+#include "rollwave/solver/sparse_cholesky.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -46,9 +46,11 @@ struct RandomMatrix {
 };
 
 double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
-  CholmodFactor cholesky(space.n_unknowns());
-  cholesky.set_matrix(assemble_triplets(space, scene, number_unknowns(space, scene)));
-  return cholesky.n_factor_entries() / space.n_unknowns();
+  SparseCholesky cholesky(space);
+  cholesky.number_unknowns(space.constraints());
+  Work work;
+  cholesky.analyse(cholesky.assemble(space.constraints(), stiffness_products(space, scene)), work);
+  return cholesky.factor().n_factor_entries() / space.n_unknowns();
 }
 
 // Between layers of n nodes a node has at most its own and those on both sides in the factor, 3 n;
@@ -65,12 +67,12 @@ TEST(CholmodFactor, DeepMeshHasTheFactorOfAShallowOne) {
   const Scene scene = make_scene(parameters);
   Discretisation ring(scene, parameters);
   std::vector<double> entries;
-  for (int level = 1; level < 29; ++level) {
+  for (int level = 1; level <= 20; ++level) {
     for (const auto& cell : ring.triangulation->active_cell_iterators())
       if (cell->vertex(3).distance({1, 3 * dealii::numbers::PI / 2}) < 1.5 * cell->diameter())
         cell->set_refine_flag();
     ring.triangulation->execute_coarsening_and_refinement();
-    if (level % 14 == 0)
+    if (level % 10 == 0)
       entries.push_back(
           factor_entries_per_unknown(RingSpace(*ring.triangulation, scene, 1), scene));
   }
@@ -81,7 +83,7 @@ TEST(CholmodFactor, TrailingFactorIsThatOfTheSchurComplement) {
   const int n = 60;
   const RandomMatrix matrix(n);
   CholmodFactor cholesky(n);
-  EXPECT_TRUE(cholesky.set_matrix(matrix.triplets));
+  cholesky.set_matrix(matrix.triplets);
   cholesky.factorise();
   FullMatrix<double> inverse(n, n);
   inverse.invert(matrix.full);
@@ -108,7 +110,7 @@ TEST(CholmodFactor, SolvesAndMultiplies) {
   CholmodFactor cholesky(n);
   LowerTriplets triplets = matrix.triplets;
   for (const bool is_first : {true, false}) { // then other values in the same pattern
-    EXPECT_EQ(cholesky.set_matrix(triplets), is_first);
+    cholesky.set_matrix(triplets);
     cholesky.factorise();
     std::vector<double> x(n);
     for (int i = 0; i < n; ++i)
@@ -124,34 +126,6 @@ TEST(CholmodFactor, SolvesAndMultiplies) {
     }
     for (double& entry : triplets.values)
       entry *= 2;
-  }
-  triplets.add(n - 1, 0, 0.1);
-  EXPECT_TRUE(cholesky.set_matrix(triplets));
-}
-
-TEST(CholmodFactor, SolvesForSparseRightHandSides) {
-  // The five-point star on a square, whose unknowns are eliminated row by row.
-  constexpr int n = 30, size = n * n;
-  LowerTriplets triplets;
-  for (int row = 0; row < size; ++row) {
-    triplets.add(row, row, 4.01);
-    if (row % n > 0)
-      triplets.add(row, row - 1, -1);
-    if (row >= n)
-      triplets.add(row, row - n, -1);
-  }
-  CholmodFactor cholesky(size);
-  EXPECT_TRUE(cholesky.set_matrix(triplets));
-  cholesky.factorise();
-  for (const std::vector<int>& places : std::vector<std::vector<int>>{
-           {}, {0}, {17}, {size / 2}, {size - 1}, {3, size - 2}, {40, 41, 500}}) {
-    SCOPED_TRACE(testing::PrintToString(places));
-    std::vector<double> rhs(size);
-    for (const int place : places)
-      rhs[place] = 1 + place;
-    const std::vector<double> product = cholesky.multiply(cholesky.backward(cholesky.forward(rhs)));
-    for (int row = 0; row < size; ++row)
-      EXPECT_NEAR(product[row], rhs[row], 1e-12 * size) << row;
   }
 }
 
@@ -250,7 +224,7 @@ TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Degree, Direct, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Degree, Direct, testing::Values(1, 3));
 
 /// u(b) of the contact-free solution of a constant f.
 double free_displacement(const Scene& scene, double f) {

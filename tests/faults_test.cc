@@ -168,7 +168,7 @@ const std::vector<std::string> endless_refinement = {"Mesh/Wanted relative error
                                                      "Mesh/Most unknowns=100000000"};
 
 TEST_F(Faults, InterruptedBetweenMeshesLeavesTheLast) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGUSR1}) {
     RunningProgram program(arguments(endless_refinement));
     program.await("Road");
     std::this_thread::sleep_for(500ms);
@@ -215,6 +215,19 @@ TEST_F(Faults, SecondInterruptEndsAtOnce) {
   const Outcome outcome = program.end_by(SIGINT);
   EXPECT_EQ(outcome.exit_code, 128 + SIGINT) << outcome.text;
   EXPECT_TRUE(files().empty());
+}
+
+// SIGXCPU comes again every second.
+TEST_F(Faults, SignalsOfBatchSystemsInterruptHoweverOftenTheyCome) {
+  for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
+    EXPECT_EXIT(
+        {
+          heed_interrupts();
+          std::raise(signal);
+          std::raise(signal);
+          std::exit(is_interrupted(MPI_COMM_SELF) ? 2 : 0);
+        },
+        testing::ExitedWithCode(2), "interrupted, ends after");
 }
 
 TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
@@ -438,18 +451,28 @@ TEST_F(Faults, LostScreenCostsNoFile) {
 TEST_F(Faults, GnuplotThatFailsCostsThePictureOnly) {
   const fs::path bin = directory / "bin";
   fs::create_directory(bin);
-  const auto expect_no_picture = [&] {
+  const auto expect_no_picture = [&](const std::string& reason) {
     fs::remove_all(directory / "out");
     const Outcome outcome = shell("PATH='" + bin.string() + "' $rollwave " + scene);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find("scene.svg was not drawn"), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find("scene.svg was not drawn: gnuplot has failed: "), std::string::npos)
+        << outcome.text;
+    EXPECT_NE(outcome.text.find(reason), std::string::npos) << outcome.text;
     EXPECT_FALSE(has("scene.svg"));
     EXPECT_TRUE(has("summary.json"));
   };
-  expect_no_picture();
-  std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho '<svg'\nkill -9 $$\n";
+  expect_no_picture("gnuplot: not found");
+  std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho '<svg'\necho no font >&2\nkill -9 $$\n";
   fs::permissions(bin / "gnuplot", fs::perms::owner_all);
-  expect_no_picture();
+  expect_no_picture("no font");
+}
+
+TEST_F(Faults, PicturesNeedNoTemporaryDirectory) {
+  for (const char* const place : {"", "/nonexistent", "/proc"}) {
+    fs::remove_all(directory / "out");
+    shell("TMPDIR=" + std::string(place) + " $rollwave " + scene);
+    EXPECT_TRUE(has("scene.svg")) << place;
+  }
 }
 
 // At a road that is nearer there is more contact, for which this rho is too large.

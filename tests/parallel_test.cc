@@ -64,7 +64,6 @@ protected:
       EXPECT_EQ(summary["iterations"]["contact"], expected["iterations"]["contact"]);
       EXPECT_LT(summary["residuals"]["equilibrium"].get<double>(), 1e-10);
       for (const auto& [section, figure] : {std::pair("contact", "force"),
-
                                             {"energy", "value"},
                                             {"energy", "lower_bound"},
                                             {"energy", "upper_bound"}}) {
@@ -90,69 +89,55 @@ protected:
   }
 };
 
-class FigureOnProcesses : public Processes, public testing::WithParamInterface<int> {
-protected:
-  const std::string file = "'" ROLLWAVE_PRM_DIRECTORY "/figure-" + std::to_string(GetParam());
-};
-
-TEST_P(FigureOnProcesses, HasTheAnswerOfOne) {
-  expect_answer_of_one(file + ".prm' --set 'Mesh/Radial cells=6' --set 'Mesh/Angular cells=90'",
+TEST_F(Processes, HaveTheAnswerOfOneAtTheCriticalSpeed) {
+  expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-5.prm' --set 'Mesh/Radial cells=6' "
+                       "--set 'Mesh/Angular cells=90'",
                        {2, 5});
 }
 
-TEST_P(FigureOnProcesses, RefinesLikeOne) {
-  expect_answer_of_one(file + ".prm' --set 'Mesh/Radial cells=3' --set 'Mesh/Angular cells=38' "
-                              "--set 'Mesh/Wanted relative error=4e-3'",
-                       {3, 4});
+TEST_F(Processes, RefineLikeOne) {
+  expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-6.prm' --set 'Mesh/Radial cells=3' "
+                       "--set 'Mesh/Angular cells=38' --set 'Mesh/Wanted relative error=1e-2'",
+                       {3});
 }
-
-INSTANTIATE_TEST_SUITE_P(Figures, FigureOnProcesses, testing::Values(4, 5, 6, 7, 8));
 
 // Most of them begin without a cell, and without a contact node for long.
 TEST_F(Processes, MayBeMoreThanCells) {
   expect_answer_of_one(scene + " --set 'Mesh/Radial cells=1' --set 'Mesh/Angular cells=4' --set "
-                               "'Mesh/Adaptive cycles=7' --set 'Mesh/Degree=2'",
-                       {7, 13});
+                               "'Mesh/Adaptive cycles=4' --set 'Mesh/Degree=2'",
+                       {6});
 }
 
 // Strips of one column or none, and cells beside them that are the same on both sides.
 TEST_F(Processes, MayBeMoreThanColumns) {
-  const std::string columns =
-      scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' ";
-  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'", {5});
-  expect_answer_of_one(columns + "--set 'Mesh/Angular cells=4' --set 'Mesh/Degree=1'", {7});
+  expect_answer_of_one(scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' "
+                               "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'",
+                       {5});
 }
 
 TEST_F(Processes, IterateLikeOneByUzawa) {
-  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-6'", {3});
+  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-3'", {2});
 }
 
-// Thin and thick rings, an uneven force, refinement by the certificate.
-TEST_F(Processes, SolveOtherScenesLikeOne) {
-  expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.9' --set 'Road/Distance=0.95' "
-                               "--set 'Mesh/Wanted relative error=0.1'",
-                       {3});
+TEST_F(Processes, RefineAThickRingWithAnUnevenForceLikeOne) {
   expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.05' --set 'Cylinder/Radial "
                                "force=0.1*cos(z)*r' --set 'Cylinder/Angular velocity=1' --set "
-                               "'Mesh/Wanted relative error=0.1' --set 'Mesh/Degree=2'",
-                       {3});
-  // Columns of two lengths.
-  expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-4.prm' --set 'Mesh/Degree=2' --set "
-                       "'Mesh/Radial cells=8' --set 'Mesh/Angular cells=96' --set "
-                       "'Road/Contact zone=4.450589592586, 4.9741883681836'",
+                               "'Mesh/Wanted relative error=0.2' --set 'Mesh/Degree=2'",
                        {2});
+}
+
+// Columns of two lengths.
+TEST_F(Processes, MeetTheEndsOfTheZoneLikeOne) {
+  expect_answer_of_one(
+      scene + " --set 'Road/Contact zone=4.450589592586, 4.9741883681836' --set Mesh/Degree=2",
+      {2});
 }
 
 // Jumps, of which some are seen at the points of the load only.
 TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
-  const std::string force = " --set 'Cylinder/Radial force=floor(8*r)/10"
-                            "+if((r-0.8)^2+(z-1.4)^2<0.0025,1,0)+if(abs(z-4.52)<0.03,1,0)'"
-                            " --set 'Mesh/Degree=2'";
-  expect_answer_of_one(
-      scene + force + " --set 'Mesh/Radial cells=12' --set 'Mesh/Angular cells=180'", {3});
-  expect_answer_of_one(scene + force +
-                           " --set 'Mesh/Radial cells=4' --set 'Mesh/Angular cells=40'"
-                           " --set 'Mesh/Adaptive cycles=2'",
+  expect_answer_of_one(scene + " --set 'Cylinder/Radial force=floor(8*r)/10"
+                               "+if((r-0.8)^2+(z-1.4)^2<0.0025,1,0)+if(abs(z-4.52)<0.03,1,0)'"
+                               " --set 'Mesh/Degree=2' --set 'Mesh/Adaptive cycles=1'",
                        {3});
 }
 
@@ -167,14 +152,40 @@ TEST_F(Processes, RefineAcrossTheSeamLikeOne) {
       {3});
 }
 
+TEST_F(Processes, ReadAPipeTogether) {
+  const Outcome outcome = shell("cat " + scene + " | " + on_processes(2) + "$rollwave /dev/stdin");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_EQ(nlohmann::json::parse(read("summary.json"))["mesh"]["cells"], 4 * 60);
+}
+
+void expect_refusal(const Outcome& outcome, const std::string& words) {
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.text.find(words), std::string::npos) << outcome.text;
+  EXPECT_EQ(outcome.text.find("rollwave: "), outcome.text.rfind("rollwave: ")) << outcome.text;
+}
+
 TEST_F(Processes, TellBadInputOnce) {
-  for (const char* const setting : {"Mesh/Degre=1", "Solver/Kind=direct"}) {
-    const Outcome outcome =
-        shell(on_processes(3) + "$rollwave " + scene + " --set '" + setting + "'");
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.text.find("rollwave: --set"), std::string::npos) << outcome.text;
-    EXPECT_EQ(outcome.text.find("rollwave: --set"), outcome.text.rfind("rollwave: --set"));
+  expect_refusal(shell(on_processes(3) + "$rollwave " + scene + " --set Solver/Kind=direct"),
+                 "--set");
+  expect_refusal(shell(on_processes(2) + "$rollwave /no/such/file"), "cannot be read");
+}
+
+TEST_F(Processes, NeedTheSameCommandLine) {
+  expect_refusal(shell(on_processes(1) + "$rollwave " + scene + " : -np 1 $rollwave " + scene +
+                       " --set Mesh/Degree=1"),
+                 "same command line");
+}
+
+// By the variables of the launcher, which here has started one process alone.
+TEST_F(Processes, ThatDoNotFindEachOtherAreRefused) {
+  for (const char* const launcher : {"PMI_SIZE=2", "SLURM_PROCID=1 SLURM_STEP_NUM_TASKS=2"}) {
+    expect_refusal(shell(std::string("export ") + launcher + "; $rollwave " + scene),
+                   "one of 2 processes");
+    EXPECT_FALSE(has("summary.json"));
   }
+  // Forced, and started once in a batch script.
+  EXPECT_EQ(shell("export SLURM_STEP_NUM_TASKS=2; $rollwave --single " + scene).exit_code, 0);
+  EXPECT_EQ(shell("export SLURM_NTASKS=2 SLURM_PROCID=0; $rollwave " + scene).exit_code, 0);
 }
 
 TEST_F(Processes, EndTogetherWhenOneIsKilled) {
@@ -245,7 +256,7 @@ protected:
 
 TEST_F(StudyOnProcesses, IsThatOfOne) {
   const std::string study = scene + " --set 'Study/Vary=Mesh/Angular cells = 40 | 60' --set "
-                                    "'Study/True errors=true'";
+                                    "'Certificate/Error bound=false'";
   const Outcome alone = shell("$rollwave " + study);
   ASSERT_EQ(alone.exit_code, 0) << alone.text;
   const auto expected = figures();
@@ -260,20 +271,17 @@ TEST_F(StudyOnProcesses, IsThatOfOne) {
 // One process goes on with what others have begun.
 TEST_F(StudyOnProcesses, MayHandOutScenes) {
   const std::string study =
-      scene + " --set 'Mesh/Wanted relative error=2e-2' --set "
-              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 1500; Road/Distance = "
+      scene + " --set 'Mesh/Wanted relative error=4e-2' --set "
+              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 600; Road/Distance = "
               "0.8 | 0.85'";
   const Outcome alone = shell("$rollwave " + study);
   EXPECT_NE(alone.text.find("is not solved"), std::string::npos) << alone.text;
   const auto expected = figures();
-  for (const auto& [n, group] : {std::pair(4, 2)}) {
-    SCOPED_TRACE(group);
-    std::filesystem::remove_all(directory / "out");
-    const Outcome many = shell(on_processes(n) + "$rollwave " + study +
-                               " --set 'Study/Processes per scene=" + std::to_string(group) + "'");
-    EXPECT_EQ(many.exit_code, alone.exit_code) << many.text;
-    expect_figures(expected);
-  }
+  std::filesystem::remove_all(directory / "out");
+  const Outcome many =
+      shell(on_processes(4) + "$rollwave " + study + " --set 'Study/Processes per scene=2'");
+  EXPECT_EQ(many.exit_code, alone.exit_code) << many.text;
+  expect_figures(expected);
   const Outcome again = shell("$rollwave " + study);
   EXPECT_NE(again.text.find("(done before)"), std::string::npos);
   expect_figures(expected);
@@ -292,7 +300,7 @@ TEST_F(StudyOnProcesses, EndTogetherWhenInterrupted) {
 // Those that have nothing to write wait for the first process before all of them end.
 TEST_F(StudyOnProcesses, LetTheFirstWriteAllBeforeTheyEnd) {
   const std::filesystem::path slow = directory / "gnuplot";
-  std::ofstream(slow) << "#!/bin/sh\nsleep 0.7\nexec $(command -v -p gnuplot) \"$@\"\n";
+  std::ofstream(slow) << "#!/bin/sh\nsleep 0.3\nexec $(command -v -p gnuplot) \"$@\"\n";
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
   write_interrupted_study("--set 'Study/True errors=true'");
   const Outcome outcome = shell("export PATH='" + directory.string() + "':$PATH; timeout 60 " +

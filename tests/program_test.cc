@@ -87,8 +87,8 @@ TEST_F(Program, KeepsTheTableOfAnotherStudy) {
 
 TEST_F(Program, OverridesTheFile) {
   const fs::path other = directory / "other";
-  ASSERT_EQ(shell("$rollwave " + scene + " --output '" + other.string() +
-                  "' --set 'Mesh/Degree = 1' --set 'Road/Distance=0.9'")
+  ASSERT_EQ(shell("$rollwave " + scene + " --output='" + other.string() +
+                  "' --set 'Mesh/Degree = 1' --set='Road/Distance=0.9'")
                 .exit_code,
             0);
   EXPECT_FALSE(has("summary.json"));

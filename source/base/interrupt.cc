@@ -3,7 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <csignal>
-#include <iterator>
+#include <set>
 #include <string_view>
 #include <unistd.h>
 
@@ -13,48 +13,45 @@ namespace {
 
 /// A signal handler can reach nothing but what is global.
 volatile std::sig_atomic_t noted = 0;
-volatile std::sig_atomic_t is_silent = 0;
+volatile std::sig_atomic_t is_told = 0;
 
-constexpr int interrupts[] = {SIGINT, SIGTERM};
-
-extern "C" void note_interrupt(int) {
-  noted = 1;
-  for (const int signal : interrupts)
-    std::signal(signal, SIG_DFL);
-  if (is_silent)
-    return;
+extern "C" void note_interrupt(int signal) {
   constexpr std::string_view message =
-      "\nrollwave: interrupted, ends after the step at hand; once more ends it at once\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
+      "\nrollwave: interrupted, ends after the step at hand; Ctrl-C or SIGTERM once more ends it "
+      "at once\n";
+  // SIGXCPU comes every second from then on.
+  const bool is_impatient = signal == SIGINT || signal == SIGTERM;
+  if (is_told && (is_impatient || !noted)) [[maybe_unused]]
+    const auto written = write(STDERR_FILENO, message.data(), message.size());
+  noted = 1;
+  if (is_impatient) {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+}
+
+std::set<int> find_heeded_signals() {
+  std::set<int> heeded;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU}) {
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler != SIG_IGN)
+      heeded.insert(signal);
+  }
+  return heeded;
 }
 
 } // namespace
 
-void heed_interrupts() {
-  for (const int signal : interrupts) {
+void heed_interrupts(bool tells) {
+  is_told = tells;
+  static const std::set<int> heeded = find_heeded_signals();
+  for (const int signal : heeded) {
     struct sigaction action = {};
-    sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN)
-      continue;
-    action = {};
     action.sa_handler = note_interrupt;
     action.sa_flags = SA_RESTART; // reading and writing go on
     sigaction(signal, &action, nullptr);
   }
-}
-
-void note_interrupts_silently() {
-  is_silent = 1;
-}
-
-KeptInterrupts::KeptInterrupts() {
-  for (unsigned int i = 0; i < std::size(interrupts); ++i)
-    sigaction(interrupts[i], nullptr, &kept[i]);
-}
-
-KeptInterrupts::~KeptInterrupts() {
-  for (unsigned int i = 0; i < std::size(interrupts); ++i)
-    sigaction(interrupts[i], &kept[i], nullptr);
 }
 
 bool is_interrupted(MPI_Comm communicator) {

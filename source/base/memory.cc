@@ -1,49 +1,97 @@
 #include "rollwave/base/memory.h"
 
-#include "rollwave/base/control_group.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <malloc.h>
 
 #include <algorithm>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
 
 namespace {
 
-constexpr double mebibyte = 1024. * 1024;
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number of @p name in a file of lines "NAME NUMBER ...", -1 without that line.
+double number_in(const std::filesystem::path& file, const std::string& name) {
+  std::ifstream lines(file);
+  std::string word, rest;
+  for (double number = 0; lines >> word >> number && std::getline(lines, rest);)
+    if (word == name)
+      return number;
+  return -1;
+}
+
+/// What one group leaves of its own limit.
+double memory_of_group(const std::filesystem::path& group, bool is_first_version) {
+  double limit = 0, use = 0;
+  // Without a limit the second version says "max".
+  if (!(std::ifstream(group / (is_first_version ? "memory.limit_in_bytes" : "memory.max")) >>
+        limit) ||
+      !(std::ifstream(group / (is_first_version ? "memory.usage_in_bytes" : "memory.current")) >>
+        use))
+    return unlimited;
+  const double idle_files =
+      number_in(group / "memory.stat", is_first_version ? "total_inactive_file" : "inactive_file");
+  return std::max(0., limit - use + std::max(0., idle_files));
+}
+
+double available_memory() {
+  const double available = 1024 * number_in("/proc/meminfo", "MemAvailable:");
+  return std::min(available < 0 ? unlimited : available,
+                  memory_of_control_groups("/proc/self/cgroup", "/sys/fs/cgroup"));
+}
+
+double sum_on_machine(MPI_Comm communicator, double value) {
+  if (is_alone(communicator))
+    return value;
+  MPI_Comm machine;
+  MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+  const double sum = dealii::Utilities::MPI::sum(value, machine);
+  MPI_Comm_free(&machine);
+  return sum;
+}
 
 } // namespace
 
-double available_memory() {
-  double available = memory_of_control_groups();
-  std::ifstream meminfo("/proc/meminfo");
-  std::string name, unit;
-  double kibibytes = 0;
-  while (meminfo >> name >> kibibytes && std::getline(meminfo, unit))
-    if (name == "MemAvailable:")
-      available = std::min(available, 1024 * kibibytes);
-  return available;
+double memory_of_control_groups(const std::filesystem::path& groups,
+                                const std::filesystem::path& root) {
+  double least = unlimited;
+  std::ifstream lines(groups);
+  for (std::string number, controllers, path; std::getline(lines, number, ':') &&
+                                              std::getline(lines, controllers, ':') &&
+                                              std::getline(lines, path);) {
+    // The second version names no controllers.
+    const bool is_first_version = !controllers.empty();
+    if (is_first_version && ("," + controllers + ",").find(",memory,") == std::string::npos)
+      continue;
+    const std::filesystem::path mount = is_first_version ? root / "memory" : root;
+    std::filesystem::path group = std::filesystem::path(path).relative_path();
+    for (; !group.empty(); group = group.parent_path())
+      least = std::min(least, memory_of_group(mount / group, is_first_version));
+    least = std::min(least, memory_of_group(mount, is_first_version));
+  }
+  return least;
 }
 
 void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator) {
-  const double on_machine = sum_on_machine(communicator, bytes), of_machine = available_memory();
-  std::string lack;
-  if (on_machine > of_machine) {
-    std::ostringstream message;
-    message.precision(3);
-    message << purpose << " needs " << on_machine / mebibyte << " MiB of memory, and "
-            << of_machine / mebibyte << " MiB are available";
-    lack = message.str();
-  }
-  lack = first_text(communicator, lack);
-  if (!lack.empty())
-    throw NotEnoughMemory(lack);
+  constexpr double mebibyte = 1024. * 1024;
+  const double needed = sum_on_machine(communicator, bytes), available = available_memory();
+  std::ostringstream lack;
+  lack.precision(3);
+  if (needed > available)
+    lack << purpose << " needs " << needed / mebibyte << " MiB of memory, and "
+         << available / mebibyte << " MiB are available";
+  const std::string first_lack = first_text(communicator, lack.str());
+  if (!first_lack.empty())
+    throw NotEnoughMemory(first_lack);
 }
 
 void release_freed_memory() {

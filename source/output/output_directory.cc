@@ -137,10 +137,10 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
         failure = std::current_exception();
       }
     for (auto& [name, drawing] : drawings)
-      if (const auto svg = drawing.take_svg())
-        add(name, *svg);
+      if (const auto [svg, failure] = drawing.take(); failure.empty())
+        add(name, svg);
       else
-        written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
+        written.remarks.push_back(name + " was not drawn: " + failure);
   }
   solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary))

@@ -8,7 +8,7 @@ std::string usage() {
   return R"(Rollwave computes the steady rolling of an elastic cylinder on a flat road.
 
 Usage:
-  rollwave [--verify] FILE.prm [--output DIR] [--set "Section/Key=value"]...
+  rollwave FILE.prm [OPTIONS]
   mpirun -np N rollwave ...   the same on N processes
   rollwave --parameters [FILE.prm]   print a complete commented parameter file
   rollwave --help         print this text
@@ -18,13 +18,22 @@ Options:
   --verify                    compare the results with the exact solution of the scene
   --output DIR                the directory for the files, instead of the file's
   --set "Section/Key=value"   overrides the file; may be repeated
+  --single                    solve alone, though a launcher tells of further processes
 
 Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 )";
 }
 
-CommandLine read_command_line(const std::vector<std::string>& arguments) {
+CommandLine read_command_line(const std::vector<std::string>& given) {
   CommandLine line;
+  std::vector<std::string> arguments;
+  for (const std::string& argument : given) {
+    const bool is_joined = argument.rfind("--output=", 0) == 0 || argument.rfind("--set=", 0) == 0;
+    const std::size_t equals = argument.find('=');
+    arguments.push_back(is_joined ? argument.substr(0, equals) : argument);
+    if (is_joined)
+      arguments.push_back(argument.substr(equals + 1));
+  }
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
     const auto option_value = [&]() {
       const std::string option = *argument;
@@ -40,6 +49,8 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       line.action = CommandLine::Action::parameters;
     else if (*argument == "--verify")
       line.verify = true;
+    else if (*argument == "--single")
+      line.is_single = true;
     else if (*argument == "--output")
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
     else if (*argument == "--set")
@@ -57,10 +68,10 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   return line;
 }
 
-std::vector<Setting> settings_of(const CommandLine& line) {
+std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator) {
   std::vector<Setting> settings;
   if (!line.file.empty())
-    settings = read_settings(line.file);
+    settings = read_settings(line.file, communicator);
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   return settings;
 }

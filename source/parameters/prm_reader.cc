@@ -1,6 +1,7 @@
 #include "rollwave/parameters/prm_reader.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
 
 #include <algorithm>
 #include <array>
@@ -117,10 +118,21 @@ std::vector<Setting> read_settings(std::istream& file, const std::string& name) 
   return settings;
 }
 
-std::vector<Setting> read_settings(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file))
-    throw BadInput(file.string() + ": this parameter file cannot be read");
+std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm communicator) {
+  std::string text, failure;
+  if (process_number(communicator) == 0)
+    try {
+      std::ifstream in(file);
+      if (!in || std::filesystem::is_directory(file))
+        throw BadInput(file.string() + ": this parameter file cannot be read");
+      text = read_all(in, file.string());
+    } catch (const BadInput& error) {
+      failure = error.what();
+    }
+  failure = share_text(communicator, failure);
+  if (!failure.empty())
+    throw BadInput(failure);
+  std::istringstream in(share_text(communicator, text));
   return read_settings(in, file.string());
 }
 

@@ -7,8 +7,6 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,6 +35,24 @@ double strong_threshold(const RingSpace& space, const Scene& scene) {
   return Utilities::MPI::max(most, space.communicator()) > 10 ? 0.55 : 0.35;
 }
 
+void clear(const IndexSet& dofs, FieldVector& field) {
+  for (const auto dof : dofs)
+    if (field.in_local_range(dof))
+      field(dof) = 0;
+}
+
+/// An operator whose results are zero where degrees of freedom are pinned.
+template <typename Operator>
+struct Unpinned {
+  const Operator& whole;
+  const IndexSet& pinned;
+
+  void vmult(FieldVector& result, const FieldVector& field) const {
+    whole.vmult(result, field);
+    clear(pinned, result);
+  }
+};
+
 } // namespace
 
 void AmgCg::set_matrix(const Scene& scene, const AffineConstraints<double>& constraints,
@@ -55,17 +71,15 @@ void AmgCg::set_matrix(const Scene& scene, const AffineConstraints<double>& cons
   stiffness.compress(VectorOperation::add);
 }
 
-// Rather than by deal.II's iterators, which take a time for each row that grows with the matrix.
-void AmgCg::visit_row(
-    types::global_dof_index row,
-    const std::function<void(types::global_dof_index column, double value)>& visit) const {
-  const Epetra_CrsMatrix& matrix = stiffness.trilinos_matrix();
-  int n = 0;
-  double* values = nullptr;
-  int* local_columns = nullptr;
-  matrix.ExtractMyRowView(matrix.RowMap().LID(static_cast<int>(row)), n, values, local_columns);
-  for (int k = 0; k < n; ++k)
-    visit(matrix.ColMap().GID(local_columns[k]), values[k]);
+void AmgCg::pin(const IndexSet& dofs) {
+  pinned = dofs;
+  // Each node by which the preconditioner is behind costs one or two iterations, a new
+  // preconditioner about twenty.
+  constexpr unsigned int most_behind = 2;
+  if (preconditioner && dofs.n_elements() + pinned_in_preconditioner.n_elements() -
+                                2 * (dofs & pinned_in_preconditioner).n_elements() >
+                            most_behind)
+    preconditioner.reset();
 }
 
 FieldVector AmgCg::solve(const FieldVector& rhs, Work& work) {
@@ -82,58 +96,56 @@ const BoomerAmg& AmgCg::multigrid(Work& work) {
     const Work::Phase phase(work, "preconditioner");
     // The hierarchy before and the assembly leave free memory in pieces.
     release_freed_memory();
-    preconditioner.emplace(stiffness, space.communicator(), threshold);
+    preconditioner.emplace(stiffness, pinned, space.communicator(), threshold);
+    pinned_in_preconditioner = pinned;
     ++work.preconditioners;
   }
   return *preconditioner;
 }
 
-double AmgCg::relative_residual(const FieldVector& u, const FieldVector& rhs,
-                                const Scale& scale) const {
+double AmgCg::residual_norm(const FieldVector& u, const FieldVector& rhs) const {
   FieldVector residual = space.make_field();
   stiffness.vmult(residual, u);
   residual -= rhs;
-  const double norm = residual.l2_norm();
-  return norm == 0 ? 0 : norm / scale(u);
+  clear(pinned, residual);
+  return residual.l2_norm();
 }
 
 double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
                       Work& work) {
-  if (rhs.all_zero())
+  FieldVector unpinned_rhs = rhs;
+  clear(pinned, unpinned_rhs);
+  double given = unpinned_rhs.linfty_norm();
+  for (const auto dof : pinned)
+    if (u.in_local_range(dof))
+      given = std::max(given, std::abs(u(dof)));
+  if (Utilities::MPI::max(given, space.communicator()) == 0)
     u = 0;
-  double residual = relative_residual(u, rhs, scale);
-  // Over many iterations the residual that conjugate gradients update drifts from the true one; a
-  // second start mends that, down to round-off.
-  for (double before = std::numeric_limits<double>::max();
-       residual > accuracy && residual < before / 2;) {
+  // The scale may change with u. Besides, over many iterations the residual that conjugate
+  // gradients update drifts from the true one. A second start mends both, down to round-off.
+  for (double before = std::numeric_limits<double>::max();;) {
+    const double norm = residual_norm(u, unpinned_rhs), size = norm > 0 ? scale(u) : 1;
+    const double residual = norm / size;
+    if (residual <= accuracy || residual >= before / 2)
+      return residual;
     before = residual;
-    iterate(u, rhs, scale, accuracy, work);
-    residual = relative_residual(u, rhs, scale);
+    iterate(u, unpinned_rhs, accuracy * size, work);
   }
-  return residual;
 }
 
-void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
-                    Work& work) {
-  // The control accepts every residual, so that the end is up to the slot, which sees the field.
-  SolverControl control(std::numeric_limits<unsigned int>::max(),
-                        std::numeric_limits<double>::max(), /*log_history=*/false,
-                        /*log_result=*/false);
-  SolverCG<FieldVector> solver(control);
+void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted, Work& work) {
   constexpr unsigned int most_iterations = 5000;
-  solver.connect([&](unsigned int iteration, double residual, const FieldVector& iterate) {
-    if (residual <= accuracy * scale(iterate))
-      return SolverControl::success;
-    return iteration < most_iterations ? SolverControl::iterate : SolverControl::failure;
-  });
+  SolverControl control(most_iterations, wanted, /*log_history=*/false, /*log_result=*/false);
   try {
-    solver.solve(stiffness, u, rhs, multigrid(work));
+    SolverCG<FieldVector>(control).solve(
+        Unpinned<TrilinosWrappers::SparseMatrix>{stiffness, pinned}, u, rhs,
+        Unpinned<BoomerAmg>{multigrid(work), pinned});
   } catch (const SolverControl::NoConvergence&) {
     std::ostringstream message;
     message
-        << "conjugate gradients have reached the relative residual "
-        << relative_residual(u, rhs, scale) << " in " << control.last_step() << " steps, wanted "
-        << accuracy
+        << "conjugate gradients have lowered the residual from " << control.initial_value()
+        << " to " << control.last_value() << " in " << control.last_step() << " steps, wanted "
+        << wanted
         << "; change Mesh/Radial cells or Mesh/Angular cells to cells that are less stretched, or, "
            "where memory suffices, set Solver/Kind to direct";
     throw NotSolved(message.str());

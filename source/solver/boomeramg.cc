@@ -53,7 +53,7 @@ struct BoomerAmg::Hypre {
   HYPRE_ParCSRMatrix parallel_matrix;
   HYPRE_Solver cycle;
 
-  Hypre(const Epetra_CrsMatrix& source, MPI_Comm communicator)
+  Hypre(const Epetra_CrsMatrix& source, const IndexSet& pinned, MPI_Comm communicator)
       : n_rows(source.NumMyRows()), first(first_row(n_rows, communicator)), rows(n_rows),
         rhs(communicator, first, first + n_rows - 1),
         solution(communicator, first, first + n_rows - 1) {
@@ -61,33 +61,43 @@ struct BoomerAmg::Hypre {
     HYPRE_IJMatrixCreate(communicator, first, first + n_rows - 1, first, first + n_rows - 1,
                          &matrix);
     HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
-    // Known sizes of both parts of a row spare hypre a copy of the matrix.
     const int* const column_numbers = source.ColMap().MyGlobalElements();
+    std::vector<bool> is_pinned(source.NumMyCols());
+    for (unsigned int k = 0; k < is_pinned.size(); ++k)
+      is_pinned[k] = pinned.is_element(column_numbers[k]);
     std::vector<HYPRE_BigInt> columns;
-    const auto visit_rows = [&](const auto& visit) {
-      for (HYPRE_Int i = 0; i < n_rows; ++i) {
-        HYPRE_Int n = 0;
-        int* local_columns = nullptr;
-        double* values = nullptr;
-        source.ExtractMyRowView(i, n, values, local_columns);
-        columns.resize(n);
-        for (int k = 0; k < n; ++k)
-          columns[k] = column_numbers[local_columns[k]];
-        visit(i, n, values);
-      }
+    std::vector<double> values;
+    const auto look_at_row = [&](HYPRE_Int i) {
+      HYPRE_Int n = 0;
+      int* all_columns = nullptr;
+      double* all_values = nullptr;
+      source.ExtractMyRowView(i, n, all_values, all_columns);
+      columns.clear();
+      values.clear();
+      const bool is_alone = pinned.is_element(rows[i]);
+      for (int k = 0; k < n; ++k)
+        if (const int column = column_numbers[all_columns[k]];
+            column == rows[i] || !(is_alone || is_pinned[all_columns[k]])) {
+          columns.push_back(column);
+          values.push_back(all_values[k]);
+        }
     };
+    // Known sizes of both parts of a row spare hypre a copy of the matrix.
     std::vector<HYPRE_Int> own_sizes(n_rows), foreign_sizes(n_rows);
-    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* /*values*/) {
+    for (HYPRE_Int i = 0; i < n_rows; ++i) {
+      look_at_row(i);
       own_sizes[i] = std::count_if(columns.begin(), columns.end(), [this](HYPRE_BigInt column) {
         return column >= first && column < first + n_rows;
       });
-      foreign_sizes[i] = n - own_sizes[i];
-    });
+      foreign_sizes[i] = columns.size() - own_sizes[i];
+    }
     HYPRE_IJMatrixSetDiagOffdSizes(matrix, own_sizes.data(), foreign_sizes.data());
     HYPRE_IJMatrixInitialize(matrix);
-    visit_rows([&](HYPRE_Int i, HYPRE_Int n, const double* values) {
-      HYPRE_IJMatrixSetValues(matrix, 1, &n, &rows[i], columns.data(), values);
-    });
+    for (HYPRE_Int i = 0; i < n_rows; ++i) {
+      look_at_row(i);
+      HYPRE_Int n = columns.size();
+      HYPRE_IJMatrixSetValues(matrix, 1, &n, &rows[i], columns.data(), values.data());
+    }
     HYPRE_IJMatrixAssemble(matrix);
     HYPRE_IJMatrixGetObject(matrix, reinterpret_cast<void**>(&parallel_matrix));
     HYPRE_BoomerAMGCreate(&cycle);
@@ -99,12 +109,12 @@ struct BoomerAmg::Hypre {
   }
 };
 
-BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, MPI_Comm communicator,
-                     double threshold)
+BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, const IndexSet& pinned,
+                     MPI_Comm communicator, double threshold)
     : hypre([&] {
         static const int is_started = HYPRE_Init(); // once in a process
         (void)is_started;
-        return std::make_unique<Hypre>(matrix.trilinos_matrix(), communicator);
+        return std::make_unique<Hypre>(matrix.trilinos_matrix(), pinned, communicator);
       }()) {
   const auto cycle = hypre->cycle;
   HYPRE_BoomerAMGSetPrintLevel(cycle, 0);

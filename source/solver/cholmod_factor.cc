@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <string>
-#include <utility>
 
 /**
  * OpenMP's parallel regions, as GCC compiles them, call GOMP_parallel (manual of libgomp,
@@ -41,7 +40,7 @@ struct CholmodFactor::Cholmod {
   cholmod_sparse* matrix = nullptr;
   cholmod_factor* factor = nullptr;
 
-  explicit Cholmod(unsigned int n) : saves_memory(n >= many_unknowns) {
+  explicit Cholmod(int n) : saves_memory(n >= 400000) { // with fewer all stays below half a GiB
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
@@ -50,14 +49,6 @@ struct CholmodFactor::Cholmod {
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_NATURAL;
     common.postorder = 0;
-    if (saves_memory) {
-      // Supernodes are merged less eagerly than by default: a tenth less memory.
-      common.nrelax[1] = 10;
-      common.nrelax[2] = 24;
-      common.zrelax[0] = 0.36;
-      common.zrelax[1] = 0.05;
-      common.zrelax[2] = 0.02;
-    }
   }
 
   ~Cholmod() {
@@ -90,30 +81,6 @@ struct CholmodFactor::Cholmod {
                       std::to_string(common.status));
   }
 
-  /// The lower triangle of the matrix. @throws NotSolved when memory is short.
-  cholmod_sparse* sum_up(const LowerTriplets& triplets, std::size_t n) {
-    cholmod_triplet view = {};
-    view.nrow = view.ncol = n;
-    view.nnz = view.nzmax = triplets.values.size();
-    view.i = const_cast<int*>(triplets.rows.data());
-    view.j = const_cast<int*>(triplets.columns.data());
-    view.x = const_cast<double*>(triplets.values.data());
-    view.stype = -1;
-    view.itype = CHOLMOD_INT;
-    view.xtype = CHOLMOD_REAL;
-    view.dtype = CHOLMOD_DOUBLE;
-    cholmod_sparse* const sum = cholmod_triplet_to_sparse(&view, 0, &common);
-    check("assembly");
-    return sum;
-  }
-
-  bool has_pattern_of(const cholmod_sparse& other) const {
-    const auto* const columns = static_cast<const int*>(matrix->p);
-    const auto* const rows = static_cast<const int*>(matrix->i);
-    return std::equal(columns, columns + matrix->ncol + 1, static_cast<const int*>(other.p)) &&
-           std::equal(rows, rows + columns[matrix->ncol], static_cast<const int*>(other.i));
-  }
-
   static cholmod_dense view(std::vector<double>& values) {
     cholmod_dense dense = {};
     dense.nrow = dense.nzmax = dense.d = values.size();
@@ -127,18 +94,23 @@ struct CholmodFactor::Cholmod {
 
 CholmodFactor::CholmodFactor(int n) : cholmod(std::make_unique<Cholmod>(n)), n(n) {}
 
-bool CholmodFactor::set_matrix(const LowerTriplets& triplets) {
-  cholmod_common& common = cholmod->common;
-  cholmod_sparse* before = cholmod->sum_up(triplets, n);
-  std::swap(cholmod->matrix, before);
-  const bool has_known_pattern = before != nullptr && cholmod->has_pattern_of(*before);
-  cholmod_free_sparse(&before, &common);
-  if (has_known_pattern)
-    return false;
-  cholmod_free_factor(&cholmod->factor, &common);
-  cholmod->factor = cholmod_analyze(cholmod->matrix, &common);
+void CholmodFactor::set_matrix(const LowerTriplets& triplets) {
+  cholmod_triplet view = {};
+  view.nrow = view.ncol = n;
+  view.nnz = view.nzmax = triplets.values.size();
+  view.i = const_cast<int*>(triplets.rows.data());
+  view.j = const_cast<int*>(triplets.columns.data());
+  view.x = const_cast<double*>(triplets.values.data());
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  cholmod_free_sparse(&cholmod->matrix, &cholmod->common);
+  cholmod->matrix = cholmod_triplet_to_sparse(&view, 0, &cholmod->common);
+  cholmod->check("assembly");
+  if (!cholmod->factor)
+    cholmod->factor = cholmod_analyze(cholmod->matrix, &cholmod->common);
   cholmod->check("analysis");
-  return true;
 }
 
 CholmodFactor::~CholmodFactor() = default;
@@ -204,7 +176,7 @@ dealii::FullMatrix<double> CholmodFactor::trailing_factor(int m) const {
 }
 
 double CholmodFactor::n_factor_entries() const {
-  return cholmod->factor->xsize;
+  return cholmod->factor ? cholmod->factor->xsize : 0;
 }
 
 } // namespace rollwave

@@ -12,7 +12,6 @@ using namespace dealii;
 SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                            const std::optional<FieldVector>& load, Work& work) {
   SolverChoice choice;
-  std::string direct_shortage;
   if (!is_alone(space.communicator())) {
     AssertThrow(kind != SolverKind::direct, ExcInternalError());
     kind = SolverKind::iterative;
@@ -25,19 +24,12 @@ SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene&
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
         throw;
-      direct_shortage = shortage.reason;
       choice.solver.reset(); // the other one needs its memory
-      choice.remark = "solved iteratively: " + direct_shortage;
+      choice.remark = "solved iteratively: " + shortage.reason;
     }
   choice.kind = SolverKind::iterative;
-  try {
-    choice.solver = std::make_unique<IterativeSolver>(space);
-    choice.solver->turn_to(scene, load, work);
-  } catch (const NotEnoughMemory& shortage) {
-    if (direct_shortage.empty())
-      throw;
-    throw NotEnoughMemory(direct_shortage + "; " + shortage.reason);
-  }
+  choice.solver = std::make_unique<IterativeSolver>(space);
+  choice.solver->turn_to(scene, load, work);
   return choice;
 }
 

@@ -1,10 +1,9 @@
 #include "rollwave/solver/direct_solver.h"
 
-#include "rollwave/base/memory.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/solver/cholmod_assembly.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace rollwave {
@@ -13,11 +12,44 @@ using namespace dealii;
 
 void DirectSolver::number_unknowns(const Scene& scene) {
   const Work::Phase phase(*work, "ordering");
-  unknown_of_dof = rollwave::number_unknowns(space, scene);
-  const unsigned int first_contact_unknown = space.n_unknowns() - space.contact_nodes().size();
-  places.clear();
-  for (const SurfaceNode& node : space.contact_nodes())
-    places.push_back(unknown_of_dof[node.dof] - first_contact_unknown);
+  const auto& nodes = space.contact_nodes();
+  std::vector<double> heights;
+  for (const SurfaceNode& node : nodes)
+    heights.push_back(scene.road(node.angle));
+  std::vector<unsigned int> by_place(nodes.size());
+  std::iota(by_place.begin(), by_place.end(), 0);
+  std::stable_sort(by_place.begin(), by_place.end(),
+                   [&](auto left, auto right) { return heights[left] > heights[right]; });
+  places.resize(nodes.size());
+  std::vector<types::global_dof_index> last;
+  for (unsigned int place = 0; place < nodes.size(); ++place) {
+    places[by_place[place]] = place;
+    last.push_back(nodes[by_place[place]].dof);
+  }
+  cholesky = std::make_unique<SparseCholesky>(space, std::move(last));
+  cholesky->number_unknowns(space.constraints());
+}
+
+void DirectSolver::factorise(const Scene& scene) {
+  if (!cholesky)
+    number_unknowns(scene);
+  angular_velocity.reset(); // until the factor is there
+  is_reduced = false;
+  schur.reset();
+  {
+    LowerTriplets triplets;
+    {
+      const Work::Phase phase(*work, "assembly");
+      triplets = cholesky->assemble(space.constraints(), stiffness_products(space, scene));
+      ++work->stiffness_assemblies;
+    }
+    const Work::Phase phase(*work, "ordering");
+    cholesky->analyse(triplets, *work);
+  }
+  const Work::Phase phase(*work, "factorisation");
+  cholesky->factorise(*work);
+  schur = std::make_unique<DenseSchur>(cholesky->factor().trailing_factor(places.size()));
+  angular_velocity = scene.angular_velocity;
 }
 
 void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) {
@@ -34,43 +66,11 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
-    reduced_load = cholesky->forward(gather(*load));
+    reduced_load = cholesky->factor().forward(cholesky->gather(*load));
     ++work.forward_substitutions;
     contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
   is_reduced = true;
-}
-
-void DirectSolver::factorise(const Scene& scene) {
-  const bool is_first = !cholesky; // later factors take the place of the one before
-  if (is_first)
-    number_unknowns(scene);
-  const unsigned int m = places.size();
-  angular_velocity.reset(); // until the factor is there
-  is_reduced = false;
-  schur.reset();
-  {
-    LowerTriplets triplets;
-    {
-      const Work::Phase phase(*work, "assembly");
-      triplets = assemble_triplets(space, scene, unknown_of_dof);
-      ++work->stiffness_assemblies;
-    }
-    const Work::Phase phase(*work, "ordering");
-    if (is_first)
-      cholesky = std::make_unique<CholmodFactor>(space.n_unknowns());
-    if (cholesky->set_matrix(triplets))
-      ++work->orderings;
-  }
-  const Work::Phase phase(*work, "factorisation");
-  if (is_first)
-    require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * m * m), // L and L_cc
-                   "the factor of the stiffness matrix with " + std::to_string(m) +
-                       " contact nodes");
-  cholesky->factorise();
-  ++work->factorisations;
-  schur = std::make_unique<DenseSchur>(cholesky->trailing_factor(m));
-  angular_velocity = scene.angular_velocity;
 }
 
 Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
@@ -112,33 +112,13 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
-  return scatter(cholesky->backward(std::move(rhs)));
+  FieldVector field = cholesky->scatter(cholesky->factor().backward(std::move(rhs)));
+  space.constraints().distribute(field);
+  return field;
 }
 
 FieldVector DirectSolver::apply(const FieldVector& field) const {
-  const std::vector<double> product = cholesky->multiply(gather(field));
-  FieldVector result = space.make_field();
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      result(dof) = product[unknown_of_dof[dof]];
-  return result;
-}
-
-std::vector<double> DirectSolver::gather(const FieldVector& field) const {
-  std::vector<double> unknowns(space.n_unknowns());
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      unknowns[unknown_of_dof[dof]] = field(dof);
-  return unknowns;
-}
-
-FieldVector DirectSolver::scatter(const std::vector<double>& unknowns) const {
-  FieldVector field = space.make_field();
-  for (unsigned int dof = 0; dof < unknown_of_dof.size(); ++dof)
-    if (unknown_of_dof[dof] >= 0)
-      field(dof) = unknowns[unknown_of_dof[dof]];
-  space.constraints().distribute(field);
-  return field;
+  return cholesky->scatter(cholesky->factor().multiply(cholesky->gather(field)));
 }
 
 } // namespace rollwave

@@ -232,10 +232,10 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     return written;
 
   const auto add_plot = [&](const std::string& name, const StudyPlot& plot) {
-    if (const auto svg = plot_study(runs, plot).take_svg())
-      add(name, *svg);
+    if (const auto [svg, failure] = plot_study(runs, plot).take(); failure.empty())
+      add(name, svg);
     else
-      written.remarks.push_back(name + " was not drawn: gnuplot is missing or has failed");
+      written.remarks.push_back(name + " was not drawn: " + failure);
   };
   const auto figure = [](const std::string& name) {
     return RunValue([name](const StudyRun& run) { return run.figure(name); });

@@ -5,7 +5,6 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace dealii::Utilities::MPI {
 class MPI_InitFinalize;
@@ -27,6 +26,10 @@ public:
   /// Whether this is the process that speaks for all.
   bool is_first() const;
 
+  /// Refuses processes that do not know of each other, as those of the launcher of another MPI:
+  /// each would do the work of all. @throws BadInput
+  void require_company() const;
+
   /// Waits until the first process is here as well, such as with files that it alone writes.
   void wait_for_first() const;
 
@@ -42,6 +45,13 @@ private:
   std::unique_ptr<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
 };
 
+/// Proves that MPI runs, which Trilinos' matrices and multigrid need on one process as well: a
+/// member of this type goes before them. The first one starts MPI, which then lasts until the
+/// program ends.
+struct MpiSession {
+  MpiSession();
+};
+
 /// Whether a communicator is that of one process: then MPI may not even be running.
 bool is_alone(MPI_Comm communicator);
 
@@ -49,9 +59,6 @@ unsigned int count_processes(MPI_Comm communicator);
 
 /// The number of this process among those of a communicator, from 0 on.
 unsigned int process_number(MPI_Comm communicator);
-
-/// The sum over those processes of a communicator that share this one's machine.
-double sum_on_machine(MPI_Comm communicator, double value);
 
 /// The text that the first process has, on all of them.
 std::string share_text(MPI_Comm communicator, const std::string& text);

@@ -14,6 +14,7 @@ struct CommandLine {
   Action action = Action::run;
   std::filesystem::path file;    ///< the parameter file to run
   bool verify = false;           ///< compare with the exact solution
+  bool is_single = false;        ///< solve alone whatever the launcher says
   std::vector<Setting> settings; ///< of --set and --output, in their order
 };
 
@@ -22,7 +23,7 @@ CommandLine read_command_line(const std::vector<std::string>& arguments);
 
 /// The settings of the file, if there is one, and those of the command line after them.
 /// @throws BadInput as read_settings() does.
-std::vector<Setting> settings_of(const CommandLine& line);
+std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator);
 
 /// How to call the program.
 std::string usage();

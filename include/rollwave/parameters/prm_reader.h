@@ -3,6 +3,8 @@
 
 #include "rollwave/base/text.h"
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -31,8 +33,10 @@ struct Setting {
  */
 std::vector<Setting> read_settings(std::istream& in, const std::string& name);
 
-/// The same of the file at a path.
-std::vector<Setting> read_settings(const std::filesystem::path& file);
+/// The same of the file at a path, which the first process reads for all: a pipe gives its text
+/// once.
+std::vector<Setting> read_settings(const std::filesystem::path& file,
+                                   MPI_Comm communicator = MPI_COMM_SELF);
 
 /// The assignment in "Section/Key=value". @throws BadInput when @p text has another form.
 Setting parse_setting(const std::string& text, const std::string& origin);

@@ -3,6 +3,7 @@
 
 #include "rollwave/mesh/ring_space.h"
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <memory>
@@ -17,10 +18,11 @@ namespace rollwave {
  */
 class BoomerAmg {
 public:
+  /// Of the rows and columns of @p pinned degrees of freedom the diagonal entry counts only.
   /// @param threshold the least coupling over the largest of its row that counts as strong
   /// @throws NotSolved when the hierarchy cannot be made.
-  BoomerAmg(const dealii::TrilinosWrappers::SparseMatrix& matrix, MPI_Comm communicator,
-            double threshold);
+  BoomerAmg(const dealii::TrilinosWrappers::SparseMatrix& matrix, const dealii::IndexSet& pinned,
+            MPI_Comm communicator, double threshold);
   ~BoomerAmg();
   BoomerAmg(const BoomerAmg&) = delete;
   BoomerAmg& operator=(const BoomerAmg&) = delete;

@@ -36,9 +36,9 @@ public:
   explicit CholmodFactor(int n);
   ~CholmodFactor();
 
-  /// Sums up the triplets to K and, unless its pattern is that of the matrix before, analyses it.
-  /// @return whether it did. @throws NotSolved when memory is short.
-  bool set_matrix(const LowerTriplets& triplets);
+  /// Sums up the triplets to K. Only the first K is analysed, and later ones must have its pattern.
+  /// @throws NotSolved when memory is short.
+  void set_matrix(const LowerTriplets& triplets);
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
   void factorise();
@@ -57,7 +57,7 @@ public:
   /// L_cc, m x m, with zeros above the diagonal.
   dealii::FullMatrix<double> trailing_factor(int m) const;
 
-  /// Entries of L, zeros within supernodes included.
+  /// Entries of L, zeros within supernodes included; 0 before the analysis.
   double n_factor_entries() const;
 
 private:

@@ -4,6 +4,7 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -25,8 +26,6 @@ public:
   /// @param factor L, m x m; what lies above the diagonal is not used
   explicit DenseSchur(dealii::FullMatrix<double> factor) : factor(std::move(factor)) {}
 
-  unsigned int size() const { return factor.m(); }
-
   /// Sets u_i of the nodes that are not pinned and N_i of those that are.
   /// @return how many free nodes needed a factorisation
   unsigned int solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,
@@ -36,19 +35,12 @@ public:
   dealii::Vector<double> solve(dealii::Vector<double> force) const;
 
   /// L y
-  dealii::Vector<double> multiply(const dealii::Vector<double>& y) const;
+  dealii::Vector<double> multiply(dealii::Vector<double> y) const;
 
   /// L^T u
-  dealii::Vector<double> transposed_multiply(const dealii::Vector<double>& u) const;
+  dealii::Vector<double> transposed_multiply(dealii::Vector<double> u) const;
 
 private:
-  double row_times(unsigned int row, unsigned int begin, unsigned int end,
-                   const dealii::Vector<double>& y) const;
-  void subtract_row(unsigned int row, unsigned int begin, unsigned int end, double times,
-                    dealii::Vector<double>& y) const;
-  void forward(unsigned int end, dealii::Vector<double>& y) const;
-  void backward(unsigned int end, dealii::Vector<double>& y) const;
-
   dealii::FullMatrix<double> factor;
 };
 

@@ -1,11 +1,11 @@
 #ifndef ROLLWAVE_SOLVER_DIRECT_SOLVER_H
 #define ROLLWAVE_SOLVER_DIRECT_SOLVER_H
 
-#include "rollwave/base/work.h"
-#include "rollwave/solver/cholmod_factor.h"
 #include "rollwave/solver/contact_linear_solver.h"
 #include "rollwave/solver/dense_schur.h"
+#include "rollwave/solver/sparse_cholesky.h"
 
+#include <memory>
 #include <optional>
 
 namespace rollwave {
@@ -36,18 +36,12 @@ private:
   void factorise(const Scene& scene);
   dealii::Vector<double> to_places(const dealii::Vector<double>& contact_values) const;
   dealii::Vector<double> from_places(const dealii::Vector<double>& values) const;
-  std::vector<double> gather(const FieldVector& field) const;
-  FieldVector scatter(const std::vector<double>& unknowns) const;
 
   const RingSpace& space;
   Work* work = nullptr;
-
-  /// The number of each degree of freedom among the unknowns, contact nodes last; -1 if
-  /// constrained.
-  std::vector<int> unknown_of_dof;
   std::vector<unsigned int> places;       ///< of the contact nodes among the last unknowns
   std::optional<double> angular_velocity; ///< of the scene that is factorised
-  std::unique_ptr<CholmodFactor> cholesky;
+  std::unique_ptr<SparseCholesky> cholesky;
   std::unique_ptr<DenseSchur> schur;
   std::optional<FieldVector> load;     ///< f; nullopt for f = 0
   bool is_reduced = false;             ///< whether what follows belongs to it and to the factor

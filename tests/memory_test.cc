@@ -1,6 +1,6 @@
 // What control groups leave of the memory, read from directories like those of the system.
 #include "own_path.h"
-#include "rollwave/base/control_group.h"
+#include "rollwave/base/memory.h"
 
 #include <gtest/gtest.h>
 

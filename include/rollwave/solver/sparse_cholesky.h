@@ -1,0 +1,49 @@
+#ifndef ROLLWAVE_SOLVER_SPARSE_CHOLESKY_H
+#define ROLLWAVE_SOLVER_SPARSE_CHOLESKY_H
+
+#include "rollwave/solver/cholmod_factor.h"
+#include "rollwave/solver/spd_solver.h"
+
+#include <vector>
+
+namespace rollwave {
+
+/// A sparse Cholesky factorisation, on one process. The unknowns are numbered in the order of
+/// elimination of the space; the analysis is kept.
+class SparseCholesky : public SpdSolver {
+public:
+  /// @param last degrees of freedom, none of them constrained, to be eliminated last, in this order
+  explicit SparseCholesky(const RingSpace& space,
+                          std::vector<dealii::types::global_dof_index> last = {})
+      : space(space), last(std::move(last)) {}
+
+  void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+                  const RadialProducts& radial, Work& work) override;
+  FieldVector solve(const FieldVector& rhs, Work& work) override;
+
+  // set_matrix() in its steps; the first one is needed once:
+  void number_unknowns(const dealii::AffineConstraints<double>& constraints);
+  LowerTriplets assemble(const dealii::AffineConstraints<double>& constraints,
+                         const RadialProducts& radial) const;
+  void analyse(const LowerTriplets& triplets, Work& work);
+  void factorise(Work& work);
+
+  CholmodFactor& factor() { return *cholesky; }
+  const CholmodFactor& factor() const { return *cholesky; }
+
+  /// The values of a field at the unknowns.
+  std::vector<double> gather(const FieldVector& field) const;
+
+  /// The field with these values at the unknowns, zero where a constraint holds.
+  FieldVector scatter(const std::vector<double>& unknowns) const;
+
+private:
+  const RingSpace& space;
+  const std::vector<dealii::types::global_dof_index> last;
+  std::vector<int> unknown_of_dof; ///< -1 where a constraint holds
+  std::unique_ptr<CholmodFactor> cholesky;
+};
+
+} // namespace rollwave
+
+#endif
