@@ -60,13 +60,13 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
 } // namespace
 
 std::vector<double> angles_of_road(const Scene& scene, double radius) {
-  constexpr unsigned int n = 720;
+  const Road road = scene.road_at(scene.road_distance);
+  const double half =
+      std::min(road.crossing_angle(radius - scene.outer_radius), 0.499 * dealii::numbers::PI);
+  constexpr unsigned int n = 500;
   std::vector<double> angles;
-  for (unsigned int i = 1; i < n; ++i) {
-    const double z = dealii::numbers::PI * (1 + static_cast<double>(i) / n);
-    if (scene.outer_radius + scene.road(z) < radius)
-      angles.push_back(z);
-  }
+  for (unsigned int i = 0; i <= n; ++i)
+    angles.push_back(dealii::numbers::PI * 3 / 2 + half * (2. * i / n - 1));
   return angles;
 }
 

@@ -147,10 +147,11 @@ std::vector<Setting> read_settings(std::istream& file, const std::string& name) 
 std::vector<Setting> read_settings(const std::filesystem::path& file) {
   std::error_code ignored;
   std::ifstream in(file);
-  const int error = std::filesystem::is_directory(file, ignored) ? EISDIR : errno;
-  if (!in || error == EISDIR)
-    throw BadInput(printable(file.string()) +
-                   ": this parameter file cannot be read: " + std::strerror(error));
+  const int error = errno;
+  const bool is_directory = std::filesystem::is_directory(file, ignored);
+  if (!in || is_directory)
+    throw BadInput(printable(file.string()) + ": this parameter file cannot be read: " +
+                   std::strerror(is_directory ? EISDIR : error));
   return read_settings(in, file.string());
 }
 

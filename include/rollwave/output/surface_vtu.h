@@ -17,7 +17,7 @@ std::string surface_vtu(const Scene& scene, const Result& result, double unit);
 /// The road as VTU, a line with the point field `angle`.
 std::string road_vtu(const Scene& scene, double unit);
 
-/// Angles, evenly spaced, at which the road lies within @p radius of the axle.
+/// Angles, evenly spaced, at which the road lies below the axle and within @p radius of it.
 std::vector<double> angles_of_road(const Scene& scene, double radius);
 
 } // namespace rollwave
