@@ -56,7 +56,10 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
 }
 
 TEST_F(Program, ReproducesARunFromItsParameters) {
-  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Cylinder/Radial force=r*cos(z)'").exit_code, 0);
+  ASSERT_EQ(shell("$rollwave " + scene +
+                  " --set 'Cylinder/Radial force=0.1*r*cos(z)' --set Road/Load=0.2")
+                .exit_code,
+            0);
   const std::string first = read("contact.csv");
   const fs::path copy = directory / "copy.prm";
   fs::copy_file(directory / "out" / "parameters.prm", copy);

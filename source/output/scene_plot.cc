@@ -62,7 +62,7 @@ set style line 2 linewidth 1.5 dashtype 2 linecolor rgb '#707070'
 set style line 3 linewidth 2.5 linecolor rgb '#7a5c2e'
 set style line 4 linewidth 1.5 linecolor rgb '#000000'
 set parametric
-set samples 721
+set samples 361
 set tics font ',12'
 set trange [0:2*pi]
 set size ratio -1 0.5,0.94
