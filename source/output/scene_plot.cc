@@ -29,6 +29,8 @@ std::string title_of(const Scene& scene, const Result& result) {
         << ",  c / b = " << scene.road_distance / scene.outer_radius
         << ",  a / b = " << scene.inner_radius / scene.outer_radius
         << ",  F / b = " << result.patch.force / scene.outer_radius;
+  if (scene.road_curvature != 0)
+    title << ",  kappa b = " << scene.road_curvature * scene.outer_radius;
   return title.str();
 }
 
