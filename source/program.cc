@@ -2,6 +2,7 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/output/output_directory.h"
+#include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
@@ -19,13 +20,15 @@ namespace rollwave {
 
 namespace {
 
-void make_study(const Parameters& parameters, const std::filesystem::path& directory,
+void make_study(const Parameters& parameters, OutputDirectory& directory,
                 const Processes& processes, std::ostream& out) {
-  const Study study = run_study(parameters, directory, out, processes.communicator());
+  const Study study = run_study(parameters, directory.path(), out, processes.communicator());
   if (processes.is_first()) {
     out << '\n';
     print_study(out, study.runs);
-    report_files(out, write_study(directory, parameters, study.runs));
+    WrittenFiles written = write_study(directory.path(), parameters, study.runs);
+    directory.remove_files_of_earlier_runs(written);
+    report_files(out, written);
   }
   processes.wait_for_first();
   if (!study.shortfall.empty())
@@ -38,47 +41,67 @@ void make_study(const Parameters& parameters, const std::filesystem::path& direc
 /// Adds the errors to the result, where the exact solution is known.
 void verify(Solution& solution, std::ostream& out) {
   const Scene& scene = solution.scene;
-  if (const auto exact = find_exact_solution(scene)) {
+  std::string why;
+  if (const auto exact = find_exact_solution(scene, &why)) {
     solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
                                                  solution.result, solution.certificate, *exact);
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
     report_verification(out, scene, solution.result, *exact);
-  } else
-    out << "\nNo exact solution is known for this scene: its force is not constant, its "
-           "zone cuts the contact short unevenly, or the contact is too long beside the "
-           "thickness of the ring.\n";
+  } else {
+    solution.result.remarks.push_back("no exact solution is known for this scene: " + why);
+    out << "\nNote: " << solution.result.remarks.back() << '\n';
+  }
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters,
-                 const std::filesystem::path& directory, const Processes& processes, bool verifies,
-                 std::ostream& out) {
+void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirectory& directory,
+                 const Processes& processes, bool verifies, std::ostream& out) {
   Solution solution = simulate(scene, parameters, processes.communicator());
   report_result(out, to_lengths(solution.result, scene.unit));
   if (verifies)
     verify(solution, out);
-  const WrittenFiles written = write_results(directory, solution.scene, parameters, solution);
+  WrittenFiles written = write_results(directory.path(), solution.scene, parameters, solution);
+  directory.remove_files_of_earlier_runs(written);
   report_end(out, solution.result.work, written);
   processes.wait_for_first();
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));
 }
 
+/// Says which files are of other scenes, where a run has failed.
+void report_earlier_files(std::ostream& out, const OutputDirectory& directory) {
+  std::string names;
+  for (const std::string& name : directory.files_of_earlier_runs())
+    names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty())
+    out << "Note: of an earlier run are in " << directory.path().string() << ": " << names << '\n';
+}
+
 } // namespace
 
 void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
-  const Parameters parameters = read_parameters(settings_of(line, processes.communicator()));
+  Parameters parameters = read_parameters(settings_of(line, processes.communicator()));
+  parameters.file = line.file;
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
   try {
     const Scene scene = make_scene(parameters);
-    const auto directory = prepare_directory(parameters, processes.communicator());
+    OutputDirectory directory(parameters, processes.communicator());
+    const auto& settings = parameters.settings;
+    if (std::all_of(settings.begin(), settings.end(),
+                    [](const Setting& setting) { return setting.section == "Output"; }))
+      out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
     report_scene(out, scene, parameters);
-    if (is_study)
-      make_study(parameters, directory, processes, out);
-    else
-      solve_scene(scene, parameters, directory, processes, line.verify, out);
+    try {
+      if (is_study)
+        make_study(parameters, directory, processes, out);
+      else
+        solve_scene(scene, parameters, directory, processes, line.verify, out);
+    } catch (...) {
+      report_earlier_files(out, directory);
+      throw;
+    }
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

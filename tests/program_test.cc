@@ -13,8 +13,9 @@ namespace {
 TEST_F(Program, WritesEveryFileOfTheContract) {
   const Outcome outcome = shell("$rollwave " + scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  for (const char* name :
-       {"summary.json", "contact.csv", "parameters.prm", "solution.vtu", "scene.svg"}) {
+  const std::vector<std::string> names = {"contact.csv", "parameters.prm", "solution.vtu",
+                                          "surface.vtu", "road.vtu",       "scene.svg"};
+  for (const std::string& name : names) {
     EXPECT_TRUE(has(name)) << name;
     EXPECT_NE(outcome.text.find(std::string("out/") + name), std::string::npos) << name;
   }
@@ -30,7 +31,7 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   EXPECT_LT(json["error"]["certified_relative"], 0.1);
   EXPECT_TRUE(json["cycles"][0]["indicated_error"].is_null()); // nothing was to be refined
   unsigned long bytes = 0;
-  for (const char* name : {"contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
+  for (const std::string& name : names)
     bytes += fs::file_size(directory / "out" / name);
   EXPECT_EQ(json["work"]["bytes_written"], bytes);
 
@@ -55,7 +56,10 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
 }
 
 TEST_F(Program, ReproducesARunFromItsParameters) {
-  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Cylinder/Radial force=r*cos(z)'").exit_code, 0);
+  ASSERT_EQ(shell("$rollwave " + scene +
+                  " --set 'Cylinder/Radial force=0.1*r*cos(z)' --set Road/Load=0.2")
+                .exit_code,
+            0);
   const std::string first = read("contact.csv");
   const fs::path copy = directory / "copy.prm";
   fs::copy_file(directory / "out" / "parameters.prm", copy);
@@ -63,11 +67,54 @@ TEST_F(Program, ReproducesARunFromItsParameters) {
   EXPECT_EQ(read("contact.csv"), first);
 }
 
-TEST_F(Program, WritesOnlyWhatIsAskedFor) {
-  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Output/Files=summary'").exit_code, 0);
-  EXPECT_TRUE(has("summary.json"));
-  for (const char* name : {"contact.csv", "parameters.prm", "solution.vtu", "scene.svg"})
+// What this program has written before goes; what is of others stays.
+TEST_F(Program, LeavesNoFileOfAnEarlierRunAsItsOwn) {
+  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Output/Files=all'").exit_code, 0);
+  for (const char* foreign : {"solution.7.vtu", "solution.pvtu", "notes.part"})
+    std::ofstream(directory / "out" / foreign) << "mine";
+  const Outcome failing =
+      shell("$rollwave " + scene + " --set Contact/Method=uzawa --set 'Contact/Most steps=3'");
+  EXPECT_EQ(failing.exit_code, 2);
+  EXPECT_NE(failing.text.find("of an earlier run are in"), std::string::npos) << failing.text;
+  EXPECT_TRUE(has("contact.csv"));
+  const Outcome fewer = shell("$rollwave " + scene + " --set 'Output/Files=summary'");
+  EXPECT_NE(fewer.text.find("removed, since they were of an earlier run: contact.csv"),
+            std::string::npos)
+      << fewer.text;
+  for (const char* name : {"contact.csv", "solution.vtu", "surface.vtu", "scene.svg"})
     EXPECT_FALSE(has(name)) << name;
+  for (const char* name :
+       {"summary.json", "parameters.prm", "solution.7.vtu", "solution.pvtu", "notes.part"})
+    EXPECT_TRUE(has(name)) << name;
+}
+
+TEST_F(Program, NeverWritesOverTheFileItReads) {
+  const fs::path out = directory / "out", input = out / "parameters.prm", link = directory / "link";
+  fs::create_directories(out);
+  fs::copy_file(directory / "scene.prm", input);
+  fs::create_symlink(input, link);
+  const std::string before = read("parameters.prm");
+  for (const fs::path& name : {input, link}) {
+    const Outcome outcome = shell("$rollwave '" + name.string() + "' --set Road/Distance=0.9");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("parameters.prm is the file that was read"), std::string::npos);
+    EXPECT_EQ(read("parameters.prm"), before);
+  }
+  EXPECT_EQ(
+      shell("$rollwave '" + input.string() + "' --set 'Study/Vary=Mesh/Degree = 1'").exit_code, 1);
+  EXPECT_EQ(read("parameters.prm"), before);
+}
+
+TEST_F(Program, WritesBesideTheNameOfTheFileWhereNoDirectoryIsGiven) {
+  std::ofstream(directory / "two  # scenes.prm") << "# nothing\n";
+  const Outcome outcome = shell("cd '" + directory.string() + "' && $rollwave 'two  # scenes.prm'");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("sets nothing: the default scene is solved"), std::string::npos);
+  const fs::path used = directory / "output" / "two  # scenes" / "parameters.prm";
+  ASSERT_TRUE(fs::exists(used));
+  fs::copy_file(used, directory / "copy.prm");
+  EXPECT_EQ(shell("cd '" + directory.string() + "' && $rollwave copy.prm").exit_code, 0);
+  EXPECT_FALSE(fs::exists(directory / "output" / "copy")); // but where the first run wrote
 }
 
 TEST_F(Program, WritesTheOtherFilesWhereTheFieldHasNoPlace) {
@@ -102,22 +149,10 @@ TEST_F(Program, SolvesIterativelyWhenAskedTo) {
   const Outcome outcome = shell("$rollwave " + scene + " --set 'Solver/Kind=iterative'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const auto json = nlohmann::json::parse(read("summary.json"));
-  EXPECT_NEAR(json["contact"]["force"].get<double>(), 0.3325, 1e-3);
-  EXPECT_LT(json["residuals"]["equilibrium"].get<double>(), 1e-10);
   EXPECT_GT(json["iterations"]["linear"], 0);
   EXPECT_GT(json["work"]["preconditioners"], 0);
   EXPECT_EQ(json["work"]["factorisations"], 0);
   EXPECT_TRUE(json["seconds"].contains("preconditioner"));
-}
-
-TEST_F(Program, SaysWhereTheAutomaticZoneEndsContact) {
-  const std::string note = "Note: contact reaches the end of the automatic zone";
-  for (const auto& [force, is_said] : {std::pair("0", false), {"100", true}}) {
-    const Outcome outcome =
-        shell("$rollwave " + scene + " --set 'Cylinder/Radial force=" + force + "'");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    EXPECT_EQ(outcome.text.find(note) != std::string::npos, is_said) << outcome.text;
-  }
 }
 
 TEST_F(Program, PrintsHelpVersionAndParameters) {
@@ -171,30 +206,12 @@ TEST_F(Program, RefusesBadInputInOneLineBeforeAnyWork) {
   }
 }
 
-TEST_F(Program, NamesTheLineOfAMistypedKey) {
-  std::ofstream(directory / "scene.prm") << "subsection Road\n\n  set Distence = 0.8\nend\n";
-  const Outcome outcome = shell("$rollwave " + scene);
-  EXPECT_EQ(outcome.exit_code, 1);
-  for (const char* part : {"scene.prm, line 3", "Distence", "Road/Distance"})
-    EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
-}
-
 TEST_F(Program, SaysWhatWasReachedWhenItCannotSolve) {
   const Outcome outcome =
       shell("$rollwave " + scene + " --set Contact/Method=uzawa --set 'Contact/Most steps=3'");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_NE(outcome.text.find("Contact/Most steps"), std::string::npos) << outcome.text;
   EXPECT_FALSE(has("summary.json"));
-}
-
-TEST_F(Program, LeavesNoPartialFileOnAFullDisk) {
-  // No file may grow beyond 8 kB: the VTU does not fit, and what fitted before is complete.
-  const Outcome outcome = shell("ulimit -f 8; $rollwave " + scene);
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
-  EXPECT_NE(outcome.text.find("could not be written"), std::string::npos) << outcome.text;
-  EXPECT_FALSE(has("solution.vtu"));
-  EXPECT_FALSE(has("summary.json"));
-  expect_no_partial_files();
 }
 
 TEST_F(Program, LeavesTheOldFileWhenTheNewOneCannotBeWritten) {
@@ -262,7 +279,14 @@ TEST_F(Program, VerifiesAScene) {
             json["error"]["exact_feasible_energy_norm"].get<double>());
   const Outcome unknown = shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=r'");
   EXPECT_EQ(unknown.exit_code, 0) << unknown.text;
-  EXPECT_NE(unknown.text.find("No exact solution"), std::string::npos) << unknown.text;
+  for (const std::string& text : {unknown.text, read("summary.json")})
+    EXPECT_NE(text.find("no exact solution is known for this scene: Cylinder/Radial force is not "
+                        "constant"),
+              std::string::npos)
+        << text;
+  const Outcome constant =
+      shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=1/2'");
+  EXPECT_NE(constant.text.find("Verification against"), std::string::npos) << constant.text;
 }
 
 TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {

@@ -1,4 +1,4 @@
-"""solution.vtu opens in VTK with its fields, and the deformed cylinder stays above the road.
+"""solution.vtu and surface.vtu open in VTK with their fields; the cylinder stays above the road.
 
 Usage: solution_vtu_test.py PROGRAM FILE.prm DEGREE
 """
@@ -20,23 +20,39 @@ def check(condition, text):
         sys.exit("failed: " + text)
 
 
-with tempfile.TemporaryDirectory() as directory:
+def read(directory, name):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(directory + "/" + name)
+    reader.Update()
+    return reader.GetOutput()
+
+
+def run(directory, cells):
     subprocess.run(
         [program, scene, "--output", directory, "--set", f"Mesh/Degree={degree}",
          "--set", "Mesh/Radial cells=8", "--set", f"Mesh/Angular cells={angular_cells}",
-         "--set", "Output/Files=solution, summary"],
+         "--set", "Output/Files=solution, surface, summary", "--set", "Output/Cells=" + cells],
         check=True, stdout=subprocess.DEVNULL)
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(directory + "/solution.vtu")
-    reader.Update()
-    grid = reader.GetOutput()
+
+
+with tempfile.TemporaryDirectory() as directory:
+    run(directory, "linear")
+    linear = read(directory, "solution.vtu")
+    run(directory, "high-order")
+    grid, surface, road = (read(directory, name + ".vtu")
+                           for name in ("solution", "surface", "road"))
     with open(directory + "/summary.json") as file:
         summary = json.load(file)
 
+check(linear.GetNumberOfCells() == 8 * angular_cells * degree ** 2, "number of linear cells")
+check(linear.GetCell(0).GetNumberOfPoints() == 4, "nodes of a linear cell")
 nodes_per_cell = (degree + 1) ** 2
 check(grid.GetNumberOfCells() == 8 * angular_cells, "number of cells")
 for cell in range(grid.GetNumberOfCells()):
     check(grid.GetCell(cell).GetNumberOfPoints() == nodes_per_cell, "nodes of a cell")
+whole = grid.GetFieldData()
+for name, value in (("omega", 0.5), ("c", distance), ("F", summary["contact"]["force"])):
+    check(abs(whole.GetArray(name).GetValue(0) - value) < 1e-15, name)
 
 x_min, x_max, y_min, y_max, z_min, z_max = grid.GetBounds()
 check(z_min == 0 and z_max == 0, "plane")
@@ -45,8 +61,9 @@ check(0.999 < y_max < 1, "top")
 check(abs(y_min + distance) < 1e-6, "the lowest node touches the road")
 
 fields = grid.GetPointData()
-displacement, pressure = fields.GetArray("displacement"), fields.GetArray("pressure")
-check(displacement is not None and pressure is not None, "fields by name")
+displacement, stress = fields.GetArray("displacement"), fields.GetArray("radial_stress")
+vector, undeformed = (fields.GetArray(name)
+                      for name in ("displacement_vector", "undeformed_position"))
 low, high = displacement.GetRange()
 check(abs(low - (distance - 1)) < 1e-6 and high <= 1e-6, "range of the displacement")
 
@@ -62,17 +79,34 @@ energy = summary["energy"]
 check(abs(squares / (2 * (energy["upper_bound"] - energy["lower_bound"])) - 1) < 1e-5,
       "sum of the cells' bounds")
 
-surface = []
+lowest_stress = 0
 for i in range(grid.GetNumberOfPoints()):
-    x, y, _ = grid.GetPoint(i)
-    u, p = displacement.GetValue(i), pressure.GetValue(i)
-    radius = math.hypot(x, y) - u
+    place, moved, start = grid.GetPoint(i), vector.GetTuple(i), undeformed.GetTuple(i)
+    radius, u = math.hypot(*start), displacement.GetValue(i)
     check(0.5 - 1e-6 < radius < 1 + 1e-6, "undeformed radius")
-    check(math.isnan(p) == (radius < 1 - 1e-6), "pressure on the surface and only there")
-    if not math.isnan(p):
-        surface.append((x, y, p))
-        check(p >= 0 and (p == 0 or abs(y + distance) < 1e-6), "pressure only on the road")
-check(abs(max(p for _, _, p in surface) - peak_pressure) < 1e-2 * peak_pressure, "peak pressure")
+    for k in range(2):
+        check(abs(start[k] + moved[k] - place[k]) < 1e-6, "position")
+        check(abs(moved[k] - u * start[k] / radius) < 1e-6, "vector of the displacement")
+    if radius > 1 - 1e-6:
+        lowest_stress = min(lowest_stress, stress.GetValue(i))
+check(abs(lowest_stress + peak_pressure) < 0.1 * peak_pressure, "stress under the contact")
+
+# The surface is a closed line; where there is pressure it is on the road.
+check(surface.GetNumberOfCells() == 1, "one line")
+check(surface.GetNumberOfPoints() == angular_cells * degree + 1, "nodes of the surface")
+fields = surface.GetPointData()
+pressure, gap, displacement = (fields.GetArray(name)
+                               for name in ("pressure", "gap", "displacement"))
+check(abs(pressure.GetRange()[1] - peak_pressure) < 1e-2 * peak_pressure, "peak pressure")
+for i in range(surface.GetNumberOfPoints()):
+    x, y, _ = surface.GetPoint(i)
+    check(abs(math.hypot(x, y) - 1 - displacement.GetValue(i)) < 1e-14, "radius of the surface")
+    if pressure.GetValue(i) != 0:
+        check(pressure.GetValue(i) > 0 and abs(y + distance) < 1e-12, "pressure on the road")
+        check(abs(gap.GetValue(i)) < 1e-14, "no gap under pressure")
+    check(math.isnan(gap.GetValue(i)) == (-y / math.hypot(x, y) <= distance / 2), "gap at the road")
+for i in range(road.GetNumberOfPoints()):
+    check(abs(road.GetPoint(i)[1] + distance) < 1e-14, "road")
 
 # Nodes obey the road exactly; between them the polynomial through points of a curve of curvature
 # below 1 leaves it by no more than h^2 / 8 of the node spacing h.

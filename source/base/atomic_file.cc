@@ -29,7 +29,7 @@ bool is_on_disk(const std::filesystem::path& path) {
 } // namespace
 
 AtomicFile::AtomicFile(const std::filesystem::path& path) : path(path), part(path) {
-  part += ".part";
+  part += ".rollwave-" + std::to_string(getpid()) + ".part";
   // Whoever removes the directory during a long computation would lose its result.
   std::error_code ignored;
   std::filesystem::create_directories(path.parent_path(), ignored);
@@ -71,10 +71,29 @@ void AtomicFile::commit() {
     fail(path, error.value());
 }
 
+bool is_abandoned_part(const std::filesystem::path& path) {
+  return path.extension() == ".part" && path.stem().extension().string().find(".rollwave-") == 0;
+}
+
+void record_file(const std::filesystem::path& path) {
+  const auto record = path.parent_path() / record_name;
+  const int descriptor = open(record.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (descriptor < 0)
+    return;
+  const std::string line = path.filename().string() + '\n';
+  const bool is_written =
+      write(descriptor, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  const int error = errno;
+  close(descriptor);
+  if (!is_written)
+    fail(path, error);
+}
+
 unsigned long write_file(const std::filesystem::path& path, const std::string& content) {
   AtomicFile file(path);
   file.stream() << content;
   const unsigned long size = file.finish();
+  record_file(path); // first: what is not recorded is never removed
   file.commit();
   return size;
 }

@@ -4,17 +4,29 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 namespace rollwave {
 
 std::string printable(const std::string& text) {
-  constexpr std::size_t longest = 200;
-  std::string shown = text.size() <= longest ? text : text.substr(0, longest) + "...";
-  std::replace_if(
-      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, '?');
-  return shown;
+  constexpr std::size_t longest = 150;
+  const char* const digits = "0123456789ABCDEF";
+  std::string shown;
+  bool is_plain = true;
+  for (std::size_t i = 0; i < std::min(text.size(), longest); ++i) {
+    const unsigned char c = text[i], before = i > 0 ? text[i - 1] : ' ';
+    if (c < 0x80)
+      is_plain = !std::iscntrl(c);
+    else if (c >= 0xC0) // of punctuation some looks like a blank or a minus sign
+      is_plain = c != 0xC2 && c != 0xE2 && c != 0xEF;
+    else // goes with the first byte of its letter
+      is_plain = is_plain && before >= 0x80;
+    shown += is_plain ? std::string(1, c) : std::string("\\x") + digits[c / 16] + digits[c % 16];
+  }
+  return shown + (text.size() > longest ? "..." : "");
 }
 
 std::string in_quotes(const std::string& text) {
@@ -26,6 +38,12 @@ std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(white);
   return first == std::string::npos ? std::string()
                                     : text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+bool is_equal_but_for_case(const std::string& one, const std::string& other) {
+  return std::equal(
+      one.begin(), one.end(), other.begin(), other.end(),
+      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -42,20 +60,45 @@ std::vector<std::string> split(const std::string& text, char separator) {
   }
 }
 
+namespace {
+
+/// What people write for a number, and what is to be written instead; empty for other texts.
+std::string why_no_number(const std::string& text) {
+  constexpr std::size_t longest = 60; // the matcher is recursive
+  if (text.size() > longest)
+    return {};
+  const std::string number = "([-+]?[0-9]+\\.?[0-9]*(?:[eE][-+]?[0-9]+)?)";
+  std::smatch parts;
+  if (std::regex_match(text, parts, std::regex("([-+]?[0-9]*),([0-9]+(?:[eE][-+]?[0-9]+)?)")))
+    return "the decimal mark is a point: " + parts.str(1) + '.' + parts.str(2);
+  if (std::regex_match(text, std::regex(number + "(\\s*,\\s*" + number + ")+")))
+    return "one number, please; in Study/Vary a \"|\" separates values, as in 1 | 2";
+  if (std::regex_match(text, parts, std::regex(number + "\\s*(%|[A-Za-z]+)"))) {
+    if (parts[2] != "%")
+      return "numbers have no unit: " + parts.str(1);
+    std::ostringstream share;
+    share << to_number(parts[1]) / 100;
+    return "a per cent is 0.01: " + share.str();
+  }
+  return {};
+}
+
+} // namespace
+
 double to_number(const std::string& text) {
   const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* const end = text.data() + text.size();
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data() + has_plus, end, value);
   if (error != std::errc() || rest != end || !(value == 0 || std::isnormal(value)))
-    throw std::invalid_argument(text);
+    throw std::invalid_argument(why_no_number(text));
   return value;
 }
 
 unsigned int to_count(const std::string& text, unsigned int least, unsigned int most) {
   const double number = to_number(text);
   if (number != std::floor(number) || number < least || number > most)
-    throw std::invalid_argument(text);
+    throw std::invalid_argument("");
   return static_cast<unsigned int>(number);
 }
 

@@ -81,6 +81,13 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
   return stretches;
 }
 
+/// Between the points of the road at two angles.
+double distance_on_road(const Scene& scene, double begin, double end) {
+  const double r = scene.outer_radius + scene.road(begin), s = scene.outer_radius + scene.road(end);
+  return std::hypot(r * std::cos(begin) - s * std::cos(end),
+                    r * std::sin(begin) - s * std::sin(end));
+}
+
 } // namespace
 
 double ContactResultants::half_width() const {
@@ -117,6 +124,7 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
       patch.end = find_end(profile, last, 1, n_behind, last - first, speed_margin);
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
+    patch.length = distance_on_road(scene, patch.begin, patch.end);
     for (int i = first; i <= last; ++i) {
       patch.force += force(i);
       patch.centroid += force(i) * profile.angle[i];

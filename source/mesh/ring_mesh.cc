@@ -147,11 +147,15 @@ double count_unknowns(const MeshOptions& mesh) {
 
 void check_mesh_size(const MeshOptions& mesh) {
   const double unknowns = count_unknowns(mesh);
-  if (unknowns > mesh.most_unknowns)
-    throw BadValue("Mesh", "Most unknowns",
-                   "the mesh would have " + count_text(unknowns) +
-                       " unknowns; allow more, or ask for fewer cells, refinements or a lower "
-                       "degree");
+  if (unknowns <= mesh.most_unknowns)
+    return;
+  MeshOptions unrefined = mesh;
+  unrefined.global_refinements = 0;
+  const bool is_refined_too_often = count_unknowns(unrefined) <= mesh.most_unknowns;
+  throw BadValue("Mesh", is_refined_too_often ? "Global refinements" : "Most unknowns",
+                 "the mesh would have " + count_text(unknowns) +
+                     " unknowns, and Mesh/Most unknowns is " + std::to_string(mesh.most_unknowns) +
+                     "; allow more, or ask for fewer cells, refinements or a lower degree");
 }
 
 std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& mesh,

@@ -42,7 +42,7 @@ std::string read_all(std::FILE* file) {
 Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
   const std::unique_ptr<std::FILE, Close> commands(open_in_memory(
       "set terminal svg noenhanced size " + std::to_string(width) + "," + std::to_string(height) +
-      " font 'Helvetica,14' background rgb 'white' dynamic\n" + script));
+      " font 'Helvetica,14' background rgb 'white' fixed\n" + script));
   if (commands)
     messages.reset(open_in_memory(""));
   // An interrupt is for this program, which still wants the picture of what it has.

@@ -1,113 +1,152 @@
 #include "rollwave/output/scene_plot.h"
 
-#include <deal.II/base/numbers.h>
+#include "rollwave/output/surface_vtu.h"
+#include "rollwave/scene/road.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace rollwave {
 
-Drawing plot_scene(const Scene& scene, const Result& result) {
-  // Lengths are drawn in units of b, so that any scene fits the frame.
-  const double b = scene.outer_radius;
-  std::ostringstream script;
-  script.precision(12);
-  script << "$surface << EOD\n";
-  double largest_radius = 1.25;
-  const auto add_point = [&](const SurfacePoint& point) {
-    const double r = std::max(0., 1 + point.displacement / b); // not through the axle
-    script << r * std::cos(point.angle) << ' ' << r * std::sin(point.angle) << '\n';
-    largest_radius = std::max(largest_radius, r);
-  };
-  for (const SurfacePoint& point : result.surface)
-    add_point(point);
-  add_point(result.surface.front());
-  script << "EOD\n";
-  // The contact with half as much on both sides, as far as the zone goes.
-  double begin = scene.zone_begin, end = scene.zone_end;
-  if (result.patch.ends) {
-    begin = std::max(begin, result.patch.ends->first - result.patch.half_width());
-    end = std::min(end, result.patch.ends->second + result.patch.half_width());
-  }
-  const auto is_within = [=](const ContactRow& row) {
-    return begin <= row.angle && row.angle <= end;
-  };
-  const auto& rows = result.contact_rows;
-  const bool is_any_within = std::any_of(rows.begin(), rows.end(), is_within);
-  // The undeformed surface is in view, and of the road what is nearest to it.
-  double least = 0, nearest_road = std::numeric_limits<double>::max(), largest = -nearest_road;
-  const double lowest_point = 3 * dealii::numbers::PI / 2;
-  script << "$contact << EOD\n";
-  for (const ContactRow& row : rows) {
-    const double u = row.displacement / b, road = row.road / b;
-    script << row.angle - lowest_point << ' ' << u << ' ' << road << ' ' << row.pressure << '\n';
-    if (is_any_within && !is_within(row))
-      continue;
-    least = std::min({least, u, road});
-    largest = std::max(largest, u);
-    nearest_road = std::min(nearest_road, road);
-  }
-  script << "EOD\n";
-  largest = std::max(largest, nearest_road);
-  const double margin = largest > least ? (largest - least) / 8 : 1;
+namespace {
 
-  script << "a = " << scene.inner_radius / b << "\nhalf = " << 1.08 * largest_radius
-         << "\nc = " << scene.road_distance / b << '\n'
-         << R"(
-set multiplot
-set samples 361
+/// Half the width of the zoom, in units of b: the contact and half as much on both sides, or the
+/// gap.
+double zoom_of(const Scene& scene, const Result& result) {
+  const double gap = scene.road_distance / scene.outer_radius - 1;
+  if (!result.patch.ends)
+    return std::max(0.2, 2 * gap);
+  return 1.5 * std::max(std::abs(from_lowest_point(result.patch.ends->first)),
+                        std::abs(from_lowest_point(result.patch.ends->second)));
+}
+
+std::string title_of(const Scene& scene, const Result& result) {
+  std::ostringstream title;
+  title.precision(4);
+  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree
+        << ":  omega b = " << scene.angular_velocity * scene.outer_radius
+        << ",  c / b = " << scene.road_distance / scene.outer_radius
+        << ",  a / b = " << scene.inner_radius / scene.outer_radius
+        << ",  F / b = " << result.patch.force / scene.outer_radius;
+  if (scene.road_curvature != 0)
+    title << ",  kappa b = " << scene.road_curvature * scene.outer_radius;
+  return title.str();
+}
+
+/// The data of the panels, lengths in units of b, so that any scene fits the frames.
+void write_data(std::ostream& script, const Scene& scene, const Result& result) {
+  const double b = scene.outer_radius;
+  const auto add_point = [&](double r, double z) {
+    script << r * std::cos(z) << ' ' << r * std::sin(z) << '\n';
+  };
+  const auto add_surface = [&](const SurfacePoint& point) {
+    add_point(std::max(0., 1 + point.displacement / b), point.angle); // not through the axle
+  };
+  script << "$surface << EOD\n";
+  for (const SurfacePoint& point : result.surface)
+    add_surface(point);
+  add_surface(result.surface.front());
+  script << "EOD\n$road << EOD\n";
+  for (const double z : angles_of_road(scene, 4 * std::max(b, scene.road_distance)))
+    add_point(1 + scene.road(z) / b, z);
+  script << "EOD\n$contact << EOD\n";
+  for (const ContactRow& row : result.contact_rows)
+    script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap / b) << ' '
+           << row.pressure << '\n';
+  script << "EOD\n";
+}
+
+/// The scene, and at the same scale in x and y what is around the contact.
+const char* const pictures = R"(
+set style line 1 linewidth 2.5 linecolor rgb '#1f5fa8'
+set style line 2 linewidth 1.5 dashtype 2 linecolor rgb '#707070'
+set style line 3 linewidth 2.5 linecolor rgb '#7a5c2e'
+set style line 4 linewidth 1.5 linecolor rgb '#000000'
 set parametric
+set samples 361
+set tics font ',12'
 set trange [0:2*pi]
-set size ratio -1 1,0.55
-set origin 0,0.45
+set size ratio -1 0.5,0.94
+set origin 0,0
 set xrange [-half:half]
 set yrange [-half:half]
-set xlabel 'x / b'
-set ylabel 'y / b'
-set key outside bottom center horizontal
-set object 1 rectangle from -half,-half to half,-c fillcolor rgb '#e8e4dc' fillstyle solid noborder behind
-plot '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
-     cos(t),sin(t) with lines linewidth 1 dashtype 2 linecolor rgb '#808080' title 'undeformed', \
-     '$surface' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'deformed', \
+set xlabel 'x / b' offset 0,0.6
+set ylabel 'y / b' offset 1
+set key below horizontal
+plot '$road' using 1:2 with filledcurves y1=-half fillcolor rgb '#e8e4dc' notitle, \
+     '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
+     cos(t),sin(t) with lines linestyle 2 title 'undeformed', \
+     '$surface' using 1:2 with lines linestyle 1 title 'deformed', \
      a*cos(t),a*sin(t) with filledcurves closed fillcolor rgb '#ffffff' notitle, \
-     a*cos(t),a*sin(t) with lines linewidth 2 linecolor rgb '#404040' title 'hub', \
-     half*(t/pi-1),-c with lines linewidth 2 linecolor rgb '#7a5c2e' title 'road'
-unset parametric
-unset object 1
+     a*cos(t),a*sin(t) with lines linestyle 4 title 'hub', \
+     '$road' using 1:2 with lines linestyle 3 title 'road'
+unset key
+set lmargin at screen 0.58
+set rmargin at screen 0.98
+set tmargin at screen 0.93
+set bmargin at screen 0.68
 set size noratio
-set lmargin at screen 0.17
-set rmargin at screen 0.96
-set key inside bottom center
-unset xlabel
+set trange [1.5*pi-1.5*zoom:1.5*pi+1.5*zoom]
+set xrange [-zoom:zoom]
+set yrange [-c-0.36*height:-c+0.64*height]
 set format '%g'
+plot '$surface' using 1:2 with filledcurves y1=0 fillcolor rgb '#dbe7f3', \
+     '$road' using 1:2 with filledcurves y1=-c-height fillcolor rgb '#e8e4dc', \
+     cos(t),sin(t) with lines linestyle 2, \
+     '$surface' using 1:2 with lines linestyle 1, \
+     '$road' using 1:2 with lines linestyle 3
+unset parametric
 set grid
 )";
-  script << "set xrange [" << begin - lowest_point << ':' << end - lowest_point << "]\n";
+
+/// Gap and pressure over the angle.
+const char* const gap = R"(
+set xrange [-angle:angle]
+set tmargin at screen 0.58
+set bmargin at screen 0.37
+set yrange [0:*]
+set ylabel 'gap / b'
+set xlabel ''
+plot '$contact' using 1:2 with lines linestyle 3
+)";
+const char* const pressure = R"(
+set tmargin at screen 0.32
+set bmargin at screen 0.11
+set ylabel 'pressure / modulus'
+set xlabel '(z - 3 pi / 2) / rad'
+plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
+     '$contact' using 1:3 with lines linestyle 1 linecolor rgb '#b3541e'
+)";
+
+} // namespace
+
+Drawing plot_scene(const Scene& scene, const Result& result) {
+  constexpr unsigned int width = 1100, height = 640;
+  const double zoom = zoom_of(scene, result);
+  // Of the frame of the zoom, which has 0.40 of the width and 0.25 of the height.
+  const double ratio = (0.25 * height) / (0.40 * width);
+  std::ostringstream script;
+  script.precision(12);
+  write_data(script, scene, result);
+  double largest = 0;
+  for (const SurfacePoint& point : result.surface)
+    largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
+  script << "a = " << scene.inner_radius / scene.outer_radius
+         << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
+         << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
+         << "\nheight = " << 2 * zoom * ratio << "\nset multiplot title \""
+         << title_of(scene, result) << "\"\n"
+         << pictures;
   if (const auto& ends = result.patch.ends)
     for (const double z : {ends->first, ends->second})
-      script << "set arrow from " << z - lowest_point << ",graph 0 to " << z - lowest_point
-             << ",graph 1 nohead dashtype 3\n";
-  // Outwards is downwards, as in the picture above.
-  script << "lowest = " << largest + margin << "\nset yrange [lowest:" << least - margin << "]\n"
-         << R"(
-set size 1,0.23
-set origin 0,0.23
-set ylabel 'displacement / b'
-plot '$contact' using 1:3 with filledcurves y1=lowest fillcolor rgb '#e8e4dc' notitle, \
-     '$contact' using 1:3 with lines linewidth 2 linecolor rgb '#7a5c2e' title 'road', \
-     '$contact' using 1:2 with lines linewidth 2 linecolor rgb '#1f5fa8' title 'surface'
-set origin 0,0
-set yrange [0:*]
-set xlabel 'angle from the lowest point, z - 3 pi / 2 [rad]'
-set ylabel 'contact pressure'
-)";
+      script << "set arrow from " << from_lowest_point(z) << ",graph 0 to " << from_lowest_point(z)
+             << ",graph 1 nohead dashtype 3 linewidth 1.5\n";
+  script << gap;
   if (!result.patch.ends)
-    script << "set yrange [0:1]\nset label 1 'no contact' at graph 0.5,0.5 center\n";
-  script << "plot '$contact' using 1:4 with filledcurves y1=0 fillcolor rgb '#f3d9c4' notitle, "
-            "'$contact' using 1:4 with lines linewidth 2 linecolor rgb '#b3541e' notitle\n";
-  return Drawing(script.str(), 760, 1200);
+    script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
+  script << pressure;
+  return Drawing(script.str(), width, height);
 }
 
 } // namespace rollwave

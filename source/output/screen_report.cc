@@ -78,7 +78,7 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
       << parameters.road.load.value_or(parameters.road.distance);
   if (scene.road_curvature != 0)
     out << ", curvature " << parameters.road.curvature;
-  out << ", zone of possible contact [" << scene.zone_begin << ", " << scene.zone_end << "]\n"
+  out << ", zone of possible contact [" << scene.zone_begin << ", " << scene.zone_end << "] rad\n"
       << std::flush;
 }
 
@@ -105,8 +105,9 @@ void report_result(std::ostream& out, const Result& result) {
     out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches)
-    out << "  contact from " << patch.begin << " to " << patch.end << ", half-width "
-        << (patch.end - patch.begin) / 2 << ", force " << contact.force << '\n';
+    out << "  contact from " << patch.begin << " to " << patch.end << " rad, half-width "
+        << (patch.end - patch.begin) / 2 << " rad, on " << patch.length << " of the road, force "
+        << patch.force << '\n';
   if (contact.patches.empty())
     out << "  no contact\n";
   out << "  contact force        F = " << contact.force << '\n'
@@ -141,8 +142,15 @@ void report_result(std::ostream& out, const Result& result) {
 void report_files(std::ostream& out, const WrittenFiles& written) {
   if (!written.files.empty())
     out << "\nFiles\n";
-  for (const auto& file : written.files)
-    out << "  " << file.string() << '\n';
+  for (const auto& file : written.files) {
+    constexpr double megabyte = 1e6, large = 100;
+    std::error_code none; // which makes the size that of no file at all
+    const double size = std::filesystem::file_size(file, none) / megabyte;
+    out << "  " << file.string();
+    if (size > large && !none)
+      out << "  (" << std::lround(size) << " MB)";
+    out << '\n';
+  }
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
 }

@@ -49,6 +49,7 @@ void add_contact(const Result& result, Json& json) {
   for (const ContactPatch& stretch : patch.patches)
     json["contact"]["patches"].push_back({{"left_end", stretch.begin},
                                           {"right_end", stretch.end},
+                                          {"length", stretch.length},
                                           {"force", stretch.force},
                                           {"centroid", stretch.centroid},
                                           {"peak_pressure", stretch.peak_pressure}});

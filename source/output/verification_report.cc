@@ -37,7 +37,8 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
       exact.force_accuracy);
   add("energy J", area, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", area, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width", 1, result.patch.half_width(), exact.half_width, exact.half_width_accuracy);
+  add("half-width / rad", 1, result.patch.half_width(), exact.half_width,
+      exact.half_width_accuracy);
   add("peak pressure", 1, result.patch.peak_pressure, exact.peak_pressure, 0);
   if (result.errors && result.errors->exact_distance)
     add("distance c", length, result.road_distance, *result.errors->exact_distance, 1e-10);

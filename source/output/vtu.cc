@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <tuple>
+#include <utility>
 
 namespace rollwave {
 
@@ -21,6 +23,9 @@ using Patch = DataOutBase::Patch<2>;
 /// A piece of the file is as many cells: their patches take several times the memory of the mesh.
 constexpr std::size_t cells_in_piece = 50000;
 
+using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                                      DataComponentInterpretation::DataComponentInterpretation>>;
+
 /// Makes a patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCells {
 public:
@@ -29,49 +34,56 @@ public:
         element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
-               update_quadrature_points),
-        dofs(element.n_dofs_per_cell()) {
-    if (solution.certificate)
-      names.push_back("certified_error");
-  }
-
-  const std::vector<std::string>& dataset_names() const { return names; }
+               update_quadrature_points | update_values | update_gradients),
+        u(element.n_dofs_per_cell()), gradients(element.n_dofs_per_cell()) {}
 
   Patch patch(const DoFHandler<2>::active_cell_iterator& cell, unsigned int index) {
-    // Behind the data the places of the points
-    const unsigned int x_row = names.size(), y_row = x_row + 1;
     values.reinit(cell);
-    cell->get_dof_indices(dofs);
+    values.get_function_values(solution.displacement, u);
+    values.get_function_gradients(solution.displacement, gradients);
+    const double bound =
+        solution.certificate ? solution.certificate->cell_bounds[cell->active_cell_index()] : 0;
     Patch patch;
     patch.patch_index = index;
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(y_row + 1, dofs.size());
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
+    patch.data.reinit(field_names(solution).size() + 2, u.size());
+    for (unsigned int i = 0; i < u.size(); ++i) {
       const unsigned int node = numbering[i];
-      const double u = solution.displacement(dofs[node]);
-      const double r = values.quadrature_point(node)[0] + u;
-      const double z = values.quadrature_point(node)[1];
-      patch.data(0, i) = u * unit;
-      patch.data(1, i) = std::numeric_limits<float>::quiet_NaN();
+      const double r = values.quadrature_point(node)[0], z = values.quadrature_point(node)[1];
+      const Point<2> outwards(std::cos(z), std::sin(z));
+      unsigned int row = 0;
+      const auto add = [&](double value) { patch.data(row++, i) = value; };
+      const auto add_vector = [&](double length) {
+        add(length * outwards[0]);
+        add(length * outwards[1]);
+      };
+      add(u[node] * unit);
+      add(gradients[node][0]);
+      add_vector(u[node] * unit);
+      add_vector(r * unit);
       if (solution.certificate)
-        patch.data(2, i) = solution.certificate->cell_bounds[cell->active_cell_index()] * unit;
-      patch.data(x_row, i) = r * std::cos(z) * unit;
-      patch.data(y_row, i) = r * std::sin(z) * unit;
-    }
-    if (const auto face = space.surface_face(cell)) {
-      const auto& nodes = space.surface_faces()[*face].nodes;
-      const unsigned int n = nodes.size();
-      for (unsigned int k = 0; k < n; ++k) {
-        const auto contact = space.contact_number(nodes[k]);
-        patch.data(1, n - 1 + n * k) =
-            contact ? solution.result.contact_rows[*contact].pressure : 0;
-      }
+        add(bound * unit);
+      add_vector((r + u[node]) * unit); // behind the data the places of the points
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
     return patch;
+  }
+
+  /// The names of scalars and of components of vectors.
+  static std::vector<std::string> field_names(const Solution& solution) {
+    std::vector<std::string> names = {"displacement", "radial_stress", "x", "y", "x", "y"};
+    if (solution.certificate)
+      names.push_back("certified_error");
+    return names;
+  }
+
+  /// The vectors among them.
+  static Ranges vectors() {
+    const auto vector = DataComponentInterpretation::component_is_part_of_vector;
+    return {{2, 3, "displacement_vector", vector}, {4, 5, "undeformed_position", vector}};
   }
 
 private:
@@ -82,34 +94,49 @@ private:
   /// From the order of points in a patch, r running fastest, to the element's own order.
   const std::vector<unsigned int> numbering;
   FEValues<2> values;
-  std::vector<types::global_dof_index> dofs;
-  std::vector<std::string> names = {"displacement", "pressure"};
+  std::vector<double> u;
+  std::vector<Tensor<1, 2>> gradients;
 };
 
-DataOutBase::VtkFlags vtk_flags(const Solution& solution) {
+DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
   DataOutBase::VtkFlags flags;
-  flags.write_higher_order_cells = solution.result.mesh.degree > 1;
+  flags.write_higher_order_cells = solution.result.mesh.degree > 1 && cells == CellKind::high_order;
   flags.print_date_and_time = false; // a run repeated gives the same file
   flags.compression_level = decltype(flags.compression_level)::best_speed;
   return flags;
 }
 
-} // namespace
-
-void write_solution_pvtu(std::ostream& out, const Solution& solution,
-                         const std::vector<std::string>& pieces) {
-  DataOutBase::write_pvtu_record(out, pieces, DeformedCells(solution, 1).dataset_names(), {},
-                                 vtk_flags(solution));
+/// What the scene is, for captions.
+void write_field_data(std::ostream& out, const Scene& scene, const Result& result, double unit) {
+  out.precision(std::numeric_limits<double>::max_digits10);
+  out << "<FieldData>\n";
+  for (const auto& [name, value] : {std::pair("omega", scene.angular_velocity / unit),
+                                    {"c", scene.road_distance * unit},
+                                    {"F", result.patch.force * unit}})
+    out << "<DataArray type=\"Float64\" Name=\"" << name
+        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value << "</DataArray>\n";
+  out << "</FieldData>\n";
 }
 
-void write_solution_vtu(std::ostream& out, const Solution& solution, double unit) {
+} // namespace
+
+void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind cells,
+                         const std::vector<std::string>& pieces) {
+  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution),
+                                 DeformedCells::vectors(), vtk_flags(solution, cells));
+}
+
+void write_solution_vtu(std::ostream& out, const Scene& scene, const Solution& solution,
+                        CellKind kind, double unit) {
   DeformedCells cells(solution, unit);
-  const DataOutBase::VtkFlags flags = vtk_flags(solution);
+  const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
   try {
     DataOutBase::write_vtu_header(out, flags);
+    write_field_data(out, scene, solution.result, unit);
     std::vector<Patch> patches;
     const auto write_piece = [&] {
-      DataOutBase::write_vtu_main(patches, cells.dataset_names(), {}, flags, out);
+      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
+                                  DeformedCells::vectors(), flags, out);
       patches.clear();
     };
     for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {

@@ -2,6 +2,8 @@
 
 #include "rollwave/base/errors.h"
 
+#include <algorithm>
+
 namespace rollwave {
 
 std::string usage() {
@@ -16,7 +18,7 @@ Usage:
 
 Options:
   --verify                    compare the results with the exact solution of the scene
-  --output DIR                the directory for the files, instead of the file's
+  --output DIR                the directory for the files, else the file's, or output/FILE
   --set "Section/Key=value"   overrides the file; may be repeated
   --single                    solve alone, though a launcher tells of further processes
 
@@ -70,8 +72,13 @@ CommandLine read_command_line(const std::vector<std::string>& given) {
 
 std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator) {
   std::vector<Setting> settings;
-  if (!line.file.empty())
+  if (!line.file.empty()) {
     settings = read_settings(line.file, communicator);
+    if (std::none_of(settings.begin(), settings.end(),
+                     [](const Setting& setting) { return setting.path() == "Output/Directory"; }))
+      settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
+                          "the name of " + printable(line.file.string())});
+  }
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   return settings;
 }

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <sstream>
 
 namespace rollwave {
@@ -17,17 +15,14 @@ std::string place(const Setting& setting) {
          in_quotes(setting.key);
 }
 
-void Declarations::enter(const std::string& name) {
-  section = name;
-  prm.enter_subsection(name);
-}
-
 void Declarations::add(const std::string& key, const std::string& default_text,
                        const std::function<void(const std::string&)>& parse,
                        const std::string& text) {
+  keys.push_back({section, key, text, parse});
+  parse(default_text);
+  prm.enter_subsection(section);
   prm.declare_entry(key, default_text, Patterns::Anything(), text);
-  prm.add_action(key, parse);
-  texts[section].emplace_back(key, text);
+  prm.leave_subsection();
 }
 
 void Declarations::add_number(const std::string& key, double& number, double least, double most,
@@ -39,7 +34,7 @@ void Declarations::add_number(const std::string& key, double& number, double lea
       [&number, least, most](const std::string& text) {
         number = to_number(text);
         if (number < least || number > most)
-          throw std::invalid_argument(text);
+          throw std::invalid_argument("");
       },
       text);
 }
@@ -52,12 +47,16 @@ void Declarations::add_count(const std::string& key, unsigned int& count, unsign
       text);
 }
 
+void Declarations::add_flag(const std::string& key, bool& flag, const std::string& text) {
+  add_choice<bool>(key, flag, {{"false", false}, {"true", true}}, "\"true\" or \"false\": " + text);
+}
+
 void Declarations::add_text(const std::string& key, std::string& value, const std::string& text) {
   add(
       key, value,
       [&value](const std::string& text) {
         if (text.empty())
-          throw std::invalid_argument(text);
+          throw std::invalid_argument("");
         value = text;
       },
       text);
@@ -67,7 +66,7 @@ namespace {
 
 /// Levenshtein's distance without regard to case: insertions, deletions and replacements.
 unsigned int edit_distance(const std::string& from, const std::string& to) {
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  const auto lower = [](unsigned char c) { return std::tolower(c); };
   std::vector<unsigned int> row(to.size() + 1);
   for (unsigned int j = 0; j < row.size(); ++j)
     row[j] = j;
@@ -85,61 +84,60 @@ unsigned int edit_distance(const std::string& from, const std::string& to) {
 
 } // namespace
 
-/// The message for a setting without a declared key: the nearest keys, then all of its section.
-std::string Declarations::unknown_key(const Setting& setting) const {
+const Declarations::Key& Declarations::find(const Setting& setting) const {
+  const auto exact = std::find_if(keys.begin(), keys.end(), [&](const Key& key) {
+    return key.section == setting.section && key.name == setting.key;
+  });
+  if (exact != keys.end())
+    return *exact;
   // What is longer than every key is far from all of them, and the more the longer to compare.
   const std::string named_section = printable(setting.section), named_key = printable(setting.key);
   std::multimap<unsigned int, std::string> nearest;
-  for (const auto& [section, entries] : texts)
-    for (const auto& [key, text] : entries)
-      nearest.emplace(edit_distance(named_key, key) + edit_distance(named_section, section),
-                      section + "/" + key);
-  std::string message = place(setting) + ": there is no such key; the nearest known: ";
+  std::string sections, own_keys;
+  for (const Key& key : keys) {
+    const std::string path = key.section + '/' + key.name;
+    if (is_equal_but_for_case(setting.path(), path))
+      throw BadInput(place(setting) + ": it is written " + path);
+    if (setting.section.empty() && setting.key == key.name)
+      throw BadInput(setting.origin + ": key " + in_quotes(key.name) +
+                     " lacks its section: it is " + path);
+    nearest.emplace(edit_distance(named_key, key.name) + edit_distance(named_section, key.section),
+                    path);
+    if (sections.find(key.section) == std::string::npos)
+      sections += (sections.empty() ? "" : ", ") + key.section;
+    if (key.section == setting.section)
+      own_keys += (own_keys.empty() ? "" : ", ") + key.name;
+  }
+  std::string message = place(setting) + ": there is no such " +
+                        (own_keys.empty() ? "section" : "key") + "; the nearest known: ";
   auto candidate = nearest.begin();
   for (unsigned int i = 0; i < 3; ++i, ++candidate)
     message += (i > 0 ? ", " : "") + candidate->second;
-  const auto own = texts.find(setting.section);
-  if (own != texts.end()) {
-    message += "; all keys of this section: ";
-    for (const auto& entry : own->second)
-      message += (&entry != &own->second.front() ? ", " : "") + entry.first;
-  }
-  return message;
+  throw BadInput(message + (own_keys.empty() ? "; all sections: " + sections
+                                             : "; all keys of this section: " + own_keys));
 }
 
-void Declarations::refuse(const std::string& section, const std::string& key,
-                          const std::string& advice) {
-  refused[section + "/" + key] = advice;
-}
-
-void Declarations::apply(const std::vector<Setting>& settings) const {
+void Declarations::apply(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings) {
-    if (const auto gone = refused.find(setting.path()); gone != refused.end())
-      throw BadInput(place(setting) + ": this key is gone; " + gone->second);
-    const auto section = texts.find(setting.section);
-    if (section == texts.end())
-      throw BadInput(unknown_key(setting));
-    const auto entry =
-        std::find_if(section->second.begin(), section->second.end(),
-                     [&setting](const auto& candidate) { return candidate.first == setting.key; });
-    if (entry == section->second.end())
-      throw BadInput(unknown_key(setting));
-    if (!is_writable(setting.value))
-      throw BadInput(
-          place(setting) + ", value " + in_quotes(setting.value) +
-          " cannot be written into a parameter file: it has a \"#\", a \"\\\" at its end "
-          "or several blanks in a row");
-    prm.enter_subsection(setting.section);
+    const Key& key = find(setting);
     try {
-      prm.set(setting.key, setting.value);
+      const std::string text = in_file(setting.value);
+      key.parse(setting.value);
+      prm.enter_subsection(key.section);
+      prm.set(key.name, text);
+      prm.leave_subsection();
     } catch (const BadInput& reason) {
       throw BadInput(place(setting) + ": " + reason.what());
-    } catch (const std::exception&) {
+    } catch (const std::invalid_argument& reason) {
+      const std::string why = reason.what();
       throw BadInput(place(setting) + ", value " + in_quotes(setting.value) +
-                     " is not admitted. The key: " + entry->second);
+                     (why.empty() ? " is not admitted" : ": " + why) + ". The key: " + key.text);
     }
-    prm.leave_subsection();
   }
+}
+
+void Declarations::print(std::ostream& out) const {
+  prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
 }
 
 } // namespace rollwave

@@ -7,10 +7,9 @@
 #include <limits>
 #include <map>
 #include <ostream>
+#include <set>
 
 namespace rollwave {
-
-using namespace dealii;
 
 namespace {
 
@@ -19,24 +18,28 @@ std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
     return {};
   const auto ends = split(text, ',');
   if (ends.size() != 2)
-    throw std::invalid_argument(text);
+    throw std::invalid_argument("two numbers with a comma between them, whose decimal mark is a "
+                                "point, as in 4.2, 5.2");
   return std::pair(to_number(ends[0]), to_number(ends[1]));
 }
 
-const std::map<std::string, OutputFile> output_files = {{"summary", OutputFile::summary},
-                                                        {"contact", OutputFile::contact},
-                                                        {"parameters", OutputFile::parameters},
-                                                        {"solution", OutputFile::solution},
-                                                        {"plot", OutputFile::plot}};
-
-std::vector<OutputFile> parse_files(const std::string& text) {
-  std::vector<OutputFile> files;
+std::set<OutputFile> parse_files(const std::string& text) {
+  using File = OutputFile;
+  const std::map<std::string, std::set<File>> kinds = {
+      {"summary", {File::summary}},
+      {"contact", {File::contact}},
+      {"solution", {File::solution}},
+      {"surface", {File::surface}},
+      {"plot", {File::plot}},
+      {"parameters", {File::parameters}},
+      {"all", {File::summary, File::contact, File::solution, File::surface, File::plot}}};
+  std::set<File> files = {File::parameters};
   for (const std::string& name : split(text, ',')) {
     if (name == "mesh")
       throw BadInput(
           "the file kind \"mesh\" is gone: see the cells in solution.vtu with ParaView's "
           "\"Surface With Edges\"");
-    files.push_back(output_files.at(name));
+    files.merge(choice_of(name, kinds));
   }
   return files;
 }
@@ -60,7 +63,6 @@ void declare_cylinder(Declarations& keys, Parameters& p) {
       "to 1/b.");
   keys.add_text("Radial force", p.cylinder.radial_force,
                 "Radial force density f: an expression in r and z, a <= r <= b, 0 <= z < 2 pi.");
-  keys.leave();
 }
 
 void declare_road(Declarations& keys, Parameters& p) {
@@ -73,7 +75,7 @@ void declare_road(Declarations& keys, Parameters& p) {
       [&p](const std::string& text) {
         p.road.load = text == "none" ? std::nullopt : std::optional(to_number(text));
         if (p.road.load && !(*p.road.load > 0))
-          throw std::invalid_argument(text);
+          throw std::invalid_argument("");
       },
       "\"none\", or instead of the distance the load for each unit of the axle's length over the "
       "shear modulus: a length, greater than 0.");
@@ -94,7 +96,6 @@ void declare_road(Declarations& keys, Parameters& p) {
       "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
       "surface without contact would be beyond the road, and two cells more, but never beyond "
       "phi < b; where the force is not uniform, it is where phi < b.");
-  keys.leave();
 }
 
 void declare_mesh(Declarations& keys, Parameters& p) {
@@ -136,22 +137,18 @@ void declare_mesh(Declarations& keys, Parameters& p) {
   keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
                  "A mesh with more unknowns than this number is refused; adaptive refinement ends "
                  "below it.");
-  keys.leave();
 }
 
 void declare_certificate(Declarations& keys, Parameters& p) {
   keys.enter("Certificate");
-  keys.add_choice<bool>("Error bound", p.certificate.error_bound,
-                        {{"false", false}, {"true", true}},
-                        "\"true\" or \"false\": whether to compute a guaranteed bound of the error "
-                        "in the energy norm, with bounds of the energy from both sides; costs "
-                        "at most about another linear solve.");
-  keys.add_choice<bool>("Load bounds", p.certificate.load_bounds,
-                        {{"false", false}, {"true", true}},
-                        "\"true\" or \"false\": whether to bound the work-conjugate load G from "
-                        "both sides, by the certified energies of two more road distances; costs "
-                        "two more scenes on the last mesh.");
-  keys.leave();
+  keys.add_flag("Error bound", p.certificate.error_bound,
+                "whether to compute a guaranteed bound of the error "
+                "in the energy norm, with bounds of the energy from both sides; costs "
+                "at most about another linear solve.");
+  keys.add_flag("Load bounds", p.certificate.load_bounds,
+                "whether to bound the work-conjugate load G from "
+                "both sides, by the certified energies of two more road distances; costs "
+                "two more scenes on the last mesh.");
 }
 
 void declare_contact(Declarations& keys, Parameters& p) {
@@ -166,7 +163,7 @@ void declare_contact(Declarations& keys, Parameters& p) {
       [&p](const std::string& text) {
         p.contact.rho = text == "auto" ? std::nullopt : std::optional(to_number(text));
         if (p.contact.rho && *p.contact.rho <= 0)
-          throw std::invalid_argument(text);
+          throw std::invalid_argument("");
       },
       "Uzawa's step length rho, pressure over displacement: \"auto\" or a number greater than 0. "
       "\"auto\" is 1.8 over the largest eigenvalue of the compliance of the contact zone.");
@@ -180,7 +177,6 @@ void declare_contact(Declarations& keys, Parameters& p) {
                   "ends when the set is right and needs none.");
   keys.add_count("Most steps", p.contact.most_steps, 1, most,
                  "The contact iteration gives up after this number of steps, 1 or more.");
-  keys.leave();
 }
 
 void declare_solver(Declarations& keys, Parameters& p) {
@@ -193,7 +189,6 @@ void declare_solver(Declarations& keys, Parameters& p) {
       "How linear problems are solved. \"direct\": one sparse Cholesky factorisation for each "
       "mesh. \"iterative\": conjugate gradients with algebraic multigrid, slower but with less "
       "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
-  keys.leave();
 }
 
 void declare_study(Declarations& keys, Parameters& p) {
@@ -214,26 +209,31 @@ void declare_study(Declarations& keys, Parameters& p) {
       [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },
       "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
       "separated by commas, - where none is known.");
-  keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
-                        "\"true\" or \"false\": whether to compare every run with the exact "
-                        "solution of its scene; where none is known, the certified error is all "
-                        "there is.");
+  keys.add_flag("True errors", p.study.true_errors,
+                "whether to compare every run with the exact "
+                "solution of its scene; where none is known, the certified error is all "
+                "there is.");
   keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
                  "Under MPI with a number greater than 0, as many processes make a run and several "
                  "runs are made at the same time; one process hands them out. 0: all processes "
                  "make each run together.");
-  keys.leave();
 }
 
 void declare_output(Declarations& keys, Parameters& p) {
   keys.enter("Output");
-  keys.add_text("Directory", p.output.directory, "The directory of the files, made when missing.");
+  keys.add_text("Directory", p.output.directory,
+                "The directory of the files, made when missing, seen from where the program is "
+                "called: output and the name of the parameter file where this key is left out.");
   keys.add(
-      "Files", "summary, contact, parameters, solution, plot",
+      "Files", "summary, contact, solution, surface, plot",
       [&p](const std::string& text) { p.output.files = parse_files(text); },
-      "The files to write: any of summary (summary.json), contact (contact.csv), parameters "
-      "(parameters.prm), solution (solution.vtu), plot (scene.svg; study.svg of a study).");
-  keys.leave();
+      "The files to write beside parameters.prm: any of summary (summary.json), contact "
+      "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
+      "study.svg of a study), or all.");
+  keys.add_choice<CellKind>(
+      "Cells", p.output.cells, {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
+      "The cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
+      "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
 }
 
 /// Every key of the program: name, default, range, unit and text, each in one statement.
@@ -246,56 +246,45 @@ void declare(Declarations& keys, Parameters& p) {
   declare_solver(keys, p);
   declare_study(keys, p);
   declare_output(keys, p);
-
-  keys.refuse("Study", "Continue meshes", "adaptive runs begin anew; leave the key out");
-  keys.refuse("Study", "Reference unknowns",
-              "where no exact solution is known, the certified error is given; leave the key out");
 }
 
-} // namespace
-
-bool Parameters::wants(OutputFile file) const {
-  return std::find(output.files.begin(), output.files.end(), file) != output.files.end();
-}
-
-namespace {
-
-/// The road is placed by its distance or by its load.
-void refuse_two_positions(const std::vector<Setting>& settings) {
-  const auto last = [&](const std::string& path) {
-    const auto found = std::find_if(settings.rbegin(), settings.rend(),
-                                    [&](const Setting& setting) { return setting.path() == path; });
-    return found != settings.rend() && found->value != "none" ? &*found : nullptr;
-  };
-  const Setting* const load = last("Road/Load");
-  if (load && last("Road/Distance"))
-    throw BadInput(
-        place(*load) + ", value " + in_quotes(load->value) +
-        ": the distance follows from the load; leave Road/Distance out, or set Road/Load "
-        "= none");
+/// Keys of earlier versions, which say what to do instead.
+void refuse_gone(const std::vector<Setting>& settings) {
+  const std::map<std::string, std::string> gone = {
+      {"Study/Continue meshes", "adaptive runs begin anew"},
+      {"Study/Reference unknowns",
+       "where no exact solution is known, the certified error is given"}};
+  for (const Setting& setting : settings)
+    if (const auto key = gone.find(setting.path()); key != gone.end())
+      throw BadInput(place(setting) + ": this key is gone; " + key->second + "; leave the key out");
 }
 
 } // namespace
 
 Parameters read_parameters(const std::vector<Setting>& settings) {
   Parameters parameters;
-  ParameterHandler prm;
-  Declarations keys(prm);
+  Declarations keys;
   declare(keys, parameters);
+  refuse_gone(settings);
   keys.apply(settings);
-  for (const Setting& setting : settings) {
-    const std::string origin = setting.origin + ", " + setting.path();
-    if (setting.path() == "Study/Vary")
-      for (auto& values : parameters.study.vary)
-        for (Setting& value : values)
-          value.origin = origin;
-    if (setting.path() == "Study/Scenes")
-      for (auto& scene : parameters.study.scenes)
-        for (Setting& value : scene.settings)
-          value.origin = origin;
-  }
   parameters.settings = settings;
-  refuse_two_positions(settings);
+  if (parameters.road.load && parameters.road.distance != RoadOptions().distance)
+    throw BadInput(refusal(settings, "Road", "Load",
+                           "the distance follows from the load; leave Road/Distance out, or set "
+                           "Road/Load = none"));
+  for (const Setting& setting : settings) {
+    const auto set_origin = [&](const std::string& key, Setting& value) {
+      if (setting.path() == key)
+        value.origin = setting.origin + ", " + key;
+      keys.check_key(value);
+    };
+    for (auto& values : parameters.study.vary)
+      for (Setting& value : values)
+        set_origin("Study/Vary", value);
+    for (auto& scene : parameters.study.scenes)
+      for (Setting& value : scene.settings)
+        set_origin("Study/Scenes", value);
+  }
   return parameters;
 }
 
@@ -315,11 +304,10 @@ std::string refusal(const std::vector<Setting>& settings, const BadValue& value)
 
 void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
   Parameters parameters;
-  ParameterHandler prm;
-  Declarations keys(prm);
+  Declarations keys;
   declare(keys, parameters);
   keys.apply(settings);
-  prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+  keys.print(out);
 }
 
 } // namespace rollwave

@@ -6,22 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 
 namespace rollwave {
 
 namespace {
-
-/// The value with runs of white space folded: continued lines are indented for the eye only.
-std::string folded(const std::string& text) {
-  std::istringstream words(text);
-  std::string result, word;
-  while (words >> word)
-    result += (result.empty() ? "" : " ") + word;
-  return result;
-}
 
 /// All of @p in. What never ends, such as a device, shall not fill the memory.
 std::string read_all(std::istream& in, const std::string& name) {
@@ -36,10 +30,27 @@ std::string read_all(std::istream& in, const std::string& name) {
   }
   if (in.bad())
     throw BadInput(name + ": this parameter file cannot be read");
-  const std::string byte_order_mark = "\xEF\xBB\xBF"; // which some editors put first
-  return text.compare(0, byte_order_mark.size(), byte_order_mark) == 0
-             ? text.substr(byte_order_mark.size())
-             : text;
+  const auto begins_with = [&text](const std::string& mark) {
+    return text.compare(0, mark.size(), mark) == 0;
+  };
+  if (begins_with("\xFF\xFE") || begins_with("\xFE\xFF"))
+    throw BadInput(name + ": this file is in UTF-16 (bytes FF, FE at its start); save it as UTF-8");
+  for (auto at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
+    if (at + 1 < text.size() && text[at + 1] != '\n')
+      throw BadInput(name + ": lines end with a carriage return alone (byte 0D); save the file "
+                            "with line feeds");
+  return begins_with("\xEF\xBB\xBF") ? text.substr(3) : text; // which some editors put first
+}
+
+/// A line up to its comment: a "#" that is not between two double quotes.
+std::string without_comment(const std::string& line) {
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    if (line[i] == '"')
+      is_quoted = !is_quoted && line.find('"', i + 1) != std::string::npos;
+    else if (line[i] == '#' && !is_quoted)
+      return line.substr(0, i);
+  return line;
 }
 
 /// The next line with its continuations, without comment; advances @p line_number.
@@ -48,7 +59,7 @@ bool next_statement(std::istream& in, unsigned& line_number, std::string& statem
   std::string line;
   while (std::getline(in, line)) {
     ++line_number;
-    line = trimmed(line.substr(0, line.find('#')));
+    line = trimmed(without_comment(line));
     const bool continued = !line.empty() && line.back() == '\\';
     if (continued)
       line.pop_back();
@@ -70,11 +81,27 @@ bool follows(const std::string& statement, const std::string& keyword, std::stri
   return true;
 }
 
+/// The value that @p text stands for in a file.
+std::string from_file(const std::string& text) {
+  std::string value = trimmed(text);
+  if (value.size() > 1 && value.find('"') == 0 && value.find('"', 1) == value.size() - 1)
+    return value.substr(1, value.size() - 2);
+  std::replace(value.begin(), value.end(), '\t', ' ');
+  return value;
+}
+
 } // namespace
 
-bool is_writable(const std::string& value) {
-  return value == folded(value) && value.find('#') == std::string::npos &&
-         (value.empty() || value.back() != '\\');
+std::string in_file(const std::string& value) {
+  if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c); }))
+    throw std::invalid_argument("no parameter file can hold a control character");
+  const bool needs_quotes = value != trimmed(value) || value.find('#') != std::string::npos ||
+                            (!value.empty() && value.back() == '\\');
+  if (value.find('"') == std::string::npos)
+    return needs_quotes ? '"' + value + '"' : value;
+  if (needs_quotes || value != from_file(value))
+    throw std::invalid_argument("no parameter file can hold this with its quotation mark");
+  return value;
 }
 
 std::vector<Setting> read_settings(std::istream& file, const std::string& name) {
@@ -85,33 +112,33 @@ std::vector<Setting> read_settings(std::istream& file, const std::string& name) 
   unsigned line_number = 0;
   while (next_statement(in, line_number, statement)) {
     const std::string origin = name + ", line " + std::to_string(line_number);
+    const auto refuse = [&origin](const std::string& why) { throw BadInput(origin + ": " + why); };
     if (statement.empty())
       continue;
     if (follows(statement, "subsection", rest)) {
       if (!section.empty())
-        throw BadInput(origin + ": " + in_quotes(statement) + " inside section " +
-                       in_quotes(section) + "; close that one by \"end\" first");
+        refuse(in_quotes(statement) + " inside section " + in_quotes(section) +
+               "; close that one by \"end\" first");
       if (rest.empty())
-        throw BadInput(origin + ": a subsection needs a name");
+        refuse("a subsection needs a name");
       section = rest;
       opened_at = origin;
     } else if (statement == "end") {
       if (section.empty())
-        throw BadInput(origin + ": \"end\" without a subsection");
+        refuse("\"end\" without a subsection");
       section.clear();
     } else if (follows(statement, "set", rest) && rest.find('=') != std::string::npos) {
       const auto equals = rest.find('=');
       const Setting setting{section, trimmed(rest.substr(0, equals)),
-                            folded(rest.substr(equals + 1)), origin};
+                            from_file(rest.substr(equals + 1)), origin};
       const auto [earlier, is_first] = seen.emplace(setting.path(), origin);
       if (!is_first)
-        throw BadInput(origin + ": section " + in_quotes(section) + ", key " +
-                       in_quotes(setting.key) + " is set a second time; it was set at " +
-                       earlier->second);
+        refuse("section " + in_quotes(section) + ", key " + in_quotes(setting.key) +
+               " is set a second time; it was set at " + earlier->second);
       settings.push_back(setting);
     } else
-      throw BadInput(origin + ": " + in_quotes(statement) +
-                     " is none of \"subsection NAME\", \"set KEY = VALUE\", \"end\"");
+      refuse(in_quotes(statement) +
+             " is none of \"subsection NAME\", \"set KEY = VALUE\", \"end\"");
   }
   if (!section.empty())
     throw BadInput(opened_at + ": section " + in_quotes(section) + " is not closed by \"end\"");
@@ -122,9 +149,13 @@ std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm c
   std::string text, failure;
   if (process_number(communicator) == 0)
     try {
+      std::error_code ignored;
       std::ifstream in(file);
-      if (!in || std::filesystem::is_directory(file))
-        throw BadInput(file.string() + ": this parameter file cannot be read");
+      const int error = errno;
+      const bool is_directory = std::filesystem::is_directory(file, ignored);
+      if (!in || is_directory)
+        throw BadInput(printable(file.string()) + ": this parameter file cannot be read: " +
+                       std::strerror(is_directory ? EISDIR : error));
       text = read_all(in, file.string());
     } catch (const BadInput& error) {
       failure = error.what();
@@ -138,11 +169,12 @@ std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm c
 
 Setting parse_setting(const std::string& text, const std::string& origin) {
   const auto equals = text.find('=');
-  const auto slash = text.find('/');
-  if (equals == std::string::npos || slash == std::string::npos || slash > equals)
+  if (equals == std::string::npos)
     throw BadInput(origin + ": " + in_quotes(text) + " is not of the form \"Section/Key=value\"");
-  return {trimmed(text.substr(0, slash)), trimmed(text.substr(slash + 1, equals - slash - 1)),
-          folded(text.substr(equals + 1)), origin};
+  const auto slash = std::min(text.find('/'), equals);
+  const auto key = slash == equals ? 0 : slash + 1;
+  return {trimmed(text.substr(0, key > 0 ? slash : 0)), trimmed(text.substr(key, equals - key)),
+          from_file(text.substr(equals + 1)), origin};
 }
 
 } // namespace rollwave

@@ -26,7 +26,7 @@ std::vector<std::vector<Setting>> parse_vary(const std::string& text) {
     if (all.section == "Study" || all.section == "Output" || vary.back().empty() ||
         vary.size() > most_varied_keys || n_runs > most_runs ||
         std::any_of(vary.begin(), vary.end() - 1, is_same_key))
-      throw std::invalid_argument(text);
+      throw std::invalid_argument("");
   }
   return vary;
 }
@@ -36,13 +36,13 @@ std::vector<NamedScene> parse_scenes(const std::string& text) {
   for (const std::string& part : split(text, ';')) {
     const auto colon = part.find(':');
     if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
-      throw std::invalid_argument(text);
+      throw std::invalid_argument("");
     scenes.push_back({trimmed(part.substr(0, colon)), {}});
     for (const std::string& assignment : split(part.substr(colon + 1), '&')) {
       scenes.back().settings.push_back(parse_setting(assignment, "Study/Scenes"));
       const std::string& section = scenes.back().settings.back().section;
       if (section == "Study" || section == "Output")
-        throw std::invalid_argument(text);
+        throw std::invalid_argument("");
     }
   }
   return scenes;

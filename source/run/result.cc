@@ -44,8 +44,10 @@ Result to_lengths(Result result, double unit) {
     certified->upper_bound *= square;
     certified->norm_squared *= square;
   }
-  for (ContactPatch& patch : result.patch.patches)
+  for (ContactPatch& patch : result.patch.patches) {
     patch.force *= unit;
+    patch.length *= unit;
+  }
   for (auto* const bounds : {&result.load_bounds, &result.distance_bounds})
     if (*bounds) {
       (*bounds)->lower *= unit;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -42,14 +43,6 @@ private:
 };
 
 } // namespace
-
-std::optional<double> constant_force(const std::string& expression) {
-  try {
-    return to_number(expression);
-  } catch (const std::invalid_argument&) {
-    return {};
-  }
-}
 
 namespace {
 
@@ -99,6 +92,16 @@ std::function<double(double r, double z)> parse_force(const std::string& express
   if (!std::isfinite(value))
     throw BadValue("Cylinder", "Radial force", "it must be finite everywhere between the radii");
   return force;
+}
+
+std::optional<double> constant_force(const std::string& expression) {
+  try {
+    return to_number(expression);
+  } catch (const std::invalid_argument&) {
+    if (std::regex_search(expression, std::regex("\\b[rz]\\b")))
+      return {};
+    return parse_force(expression, 1)(1, 1);
+  }
 }
 
 } // namespace rollwave

@@ -50,6 +50,10 @@ std::string claim_directory(const Parameters& parameters, const std::filesystem:
   const std::string own = parameters_text(parameters);
   if (own == read_text(directory / "parameters.prm"))
     return read_text(directory / "study.csv");
+  if (is_input(parameters, directory / "parameters.prm"))
+    throw BadInput(refusal(parameters.settings, "Output", "Directory",
+                           "the parameters of the study would replace the file that was read; "
+                           "choose another directory"));
   // In this order: rows beside the parameters of another study would be taken for its own.
   const auto table = directory / "study.csv", kept = directory / "study-before.csv";
   std::error_code error;

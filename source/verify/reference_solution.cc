@@ -15,23 +15,28 @@ namespace rollwave {
 
 using namespace dealii;
 
-std::optional<ExactSolution> find_exact_solution(const Scene& scene) {
-  if (scene.has_uneven_force())
+std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string* why_none) {
+  const auto give_up = [&](const std::string& why) -> std::optional<ExactSolution> {
+    if (why_none)
+      *why_none = why;
     return {};
+  };
+  if (scene.has_uneven_force())
+    return give_up("Cylinder/Radial force is not constant");
   const double left = 3 * numbers::PI / 2 - scene.zone_begin;
   const double right = scene.zone_end - 3 * numbers::PI / 2;
   const double narrow = std::min(left, right);
   if (narrow <= 0)
-    return {};
+    return give_up("Road/Contact zone leaves out the lowest point");
   try {
     const ExactSolution exact = solve_exactly(
         {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road_distance,
          scene.uniform_force.value_or(0), narrow, scene.road_curvature});
     if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
-      return {};
+      return give_up("Road/Contact zone cuts the contact short on one side, or unevenly");
     return exact;
-  } catch (const NotSolved&) {
-    return {};
+  } catch (const NotSolved& reason) {
+    return give_up(reason.what());
   }
 }
 

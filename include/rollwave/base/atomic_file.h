@@ -3,13 +3,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 namespace rollwave {
 
 /**
- * A file that is either complete or absent: it is written beside its place as "NAME.part" and moved
- * there by commit() after finish(). Without commit() nothing remains, unless the process is killed:
- * then "NAME.part" does, until the file is written again.
+ * A file that is either complete or absent: it is written beside its place, under a name that no
+ * other process uses, and moved there by commit() after finish(). Without commit() nothing remains,
+ * unless the process is killed.
  */
 class AtomicFile {
 public:
@@ -34,7 +35,16 @@ private:
   std::ofstream out;
 };
 
-/// Writes @p content and returns its size in bytes. @throws NotWritten.
+/// Whether a file has the name of a part that an AtomicFile leaves when its process is killed.
+bool is_abandoned_part(const std::filesystem::path& path);
+
+/// The file that lists what this program has written into a directory, one name in a line.
+inline constexpr const char* record_name = ".rollwave";
+
+/// Notes a file in the record of its directory, if that has one. @throws NotWritten.
+void record_file(const std::filesystem::path& path);
+
+/// Records and writes a file, and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
 
 } // namespace rollwave

@@ -6,8 +6,8 @@
 
 namespace rollwave {
 
-/// @p text for a message: at most 200 bytes of it, without the control characters by which a file
-/// of another kind would disturb a terminal.
+/// @p text for a message: at most 150 bytes of it; control characters, and in UTF-8 punctuation
+/// that looks like a blank or a minus sign, are named by their bytes, as in \xC2\xA0.
 std::string printable(const std::string& text);
 
 /// printable(text) in quotation marks.
@@ -19,8 +19,11 @@ std::string trimmed(const std::string& text);
 /// The parts of @p text between the separators, trimmed; none for an empty text.
 std::vector<std::string> split(const std::string& text, char separator);
 
+/// Whether two texts differ at most in ASCII letters being upper or lower case.
+bool is_equal_but_for_case(const std::string& one, const std::string& other);
+
 /// @p text as a finite number, in the C locale; subnormal numbers are refused as well.
-/// @throws std::invalid_argument when it is none.
+/// @throws std::invalid_argument when it is none, with the reason where that can be told.
 double to_number(const std::string& text);
 
 /// @p text as a whole number from @p least to @p most. @throws std::invalid_argument otherwise.

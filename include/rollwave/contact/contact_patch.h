@@ -16,6 +16,7 @@ struct ContactPatch {
   double force;    ///< b int lambda dz over the stretch
   double centroid; ///< int lambda z dz / int lambda dz, an angle
   double peak_pressure;
+  double length = 0; ///< of the road under it, as a straight line
 };
 
 /// What the road feels of the contact. Forces are per unit length of the axle and unit shear

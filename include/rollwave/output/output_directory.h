@@ -2,8 +2,8 @@
 #define ROLLWAVE_OUTPUT_OUTPUT_DIRECTORY_H
 
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/run/solution.h"
-#include "rollwave/scene/scene.h"
+
+#include <mpi.h>
 
 #include <filesystem>
 #include <iosfwd>
@@ -12,24 +12,49 @@
 
 namespace rollwave {
 
-/// Makes the directory of the files, on one process for all. @throws BadInput when it cannot be
-/// made or written into, NotWritten when there is no space for it.
-std::filesystem::path prepare_directory(const Parameters& parameters, MPI_Comm communicator);
-
-/// What has been written, and what could not be drawn.
+/// What has been written, and what could not be.
 struct WrittenFiles {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks;
 };
 
-/// Writes the files that @p parameters ask for: on several processes each its part of the field,
-/// one of them the others. The time is added to the work of @p solution, whose summary is written
-/// last. @throws NotWritten.
-WrittenFiles write_results(const std::filesystem::path& directory, const Scene& scene,
-                           const Parameters& parameters, Solution& solution);
-
 /// The complete parameter file of a run, with the versions of the program in its first line.
 void write_parameters(std::ostream& out, const Parameters& parameters);
+
+/// Whether @p path is the parameter file that was read, by whatever name: it is never written over.
+bool is_input(const Parameters& parameters, const std::filesystem::path& path);
+
+/**
+ * The directory that a run writes into, from its beginning to its end. The record in it, which
+ * names the files that this program has written there, is locked by the kernel meanwhile, so that
+ * no other run writes there.
+ */
+class OutputDirectory {
+public:
+  /// Makes the directory, on one process for all, and removes what killed runs have left half
+  /// written. @throws BadValue when it cannot be made or written into, or another run does,
+  ///         NotWritten when there is no space for it.
+  OutputDirectory(const Parameters& parameters, MPI_Comm communicator);
+  ~OutputDirectory();
+  OutputDirectory(const OutputDirectory&) = delete;
+  OutputDirectory& operator=(const OutputDirectory&) = delete;
+
+  const std::filesystem::path& path() const { return directory; }
+
+  /// The files that earlier runs of this program have written here, and this one has not.
+  std::vector<std::string> files_of_earlier_runs() const;
+
+  /// At the end of a run: removes these, keeping the table of a study, and says so in @p written.
+  void remove_files_of_earlier_runs(WrittenFiles& written);
+
+private:
+  std::vector<std::string> recorded() const;
+
+  std::filesystem::path directory;
+  const Parameters& parameters;
+  int record = -1;           ///< descriptor, on the first process
+  std::size_t n_earlier = 0; ///< entries of the record that are of earlier runs
+};
 
 } // namespace rollwave
 

@@ -7,8 +7,7 @@
 
 namespace rollwave {
 
-/// The undeformed and the deformed outline on the road; over the contact and half as much on
-/// both sides, or the zone without contact, surface and road, and the pressure.
+/// The scene; the surroundings of the contact at true scale; over the angle gap and pressure there.
 Drawing plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave

@@ -6,10 +6,10 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <functional>
+#include <iosfwd>
 #include <map>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -17,16 +17,26 @@ namespace rollwave {
 /// Where a setting was made and its section and key, the beginning of every message about it.
 std::string place(const Setting& setting);
 
-/// Declares keys to a ParameterHandler, which sets the variables behind them, and remembers their
-/// texts for messages. The default of a key is the value of its variable.
+/// The value that @p choices have for a name. @throws std::invalid_argument
+template <typename Choice>
+Choice choice_of(const std::string& name, const std::map<std::string, Choice>& choices) {
+  for (const auto& [known, value] : choices)
+    if (name == known)
+      return value;
+    else if (is_equal_but_for_case(name, known))
+      throw std::invalid_argument("it is written " + in_quotes(known));
+  throw std::invalid_argument("");
+}
+
+/// The keys of parameter files with the variables behind them and their texts for messages. The
+/// default of a key is the value of its variable.
 class Declarations {
 public:
-  explicit Declarations(dealii::ParameterHandler& prm) : prm(prm) {}
+  /// The section of the keys that follow.
+  void enter(const std::string& name) { section = name; }
 
-  void enter(const std::string& name);
-  void leave() { prm.leave_subsection(); }
-
-  /// A key whose text is turned into a value by @p parse, which throws on a text not admitted.
+  /// A key whose text @p parse turns into a value. It throws std::invalid_argument, with a reason
+  /// if it knows one, for a text that is not admitted.
   void add(const std::string& key, const std::string& default_text,
            const std::function<void(const std::string&)>& parse, const std::string& text);
 
@@ -35,6 +45,9 @@ public:
 
   void add_count(const std::string& key, unsigned int& count, unsigned int least, unsigned int most,
                  const std::string& text);
+
+  /// "true" or "false"
+  void add_flag(const std::string& key, bool& flag, const std::string& text);
 
   template <typename Choice>
   void add_choice(const std::string& key, Choice& choice,
@@ -45,28 +58,33 @@ public:
         default_name = name;
     add(
         key, default_name,
-        [&choice, choices](const std::string& name) { choice = choices.at(name); }, text);
+        [&choice, choices](const std::string& name) { choice = choice_of(name, choices); }, text);
   }
 
   /// Any text but the empty one.
   void add_text(const std::string& key, std::string& value, const std::string& text);
 
-  /// A key of earlier versions: setting it is refused with @p advice.
-  void refuse(const std::string& section, const std::string& key, const std::string& advice);
+  /// Hands @p settings to their keys, the later the stronger. @throws BadInput naming the setting
+  /// that is not admitted and what is, or the nearest known keys.
+  void apply(const std::vector<Setting>& settings);
 
-  /// Hands @p settings to the declared keys, the later the stronger. @throws BadInput naming the
-  /// setting that is not admitted and what is, or the nearest known keys.
-  void apply(const std::vector<Setting>& settings) const;
+  /// @throws BadInput where the key of a setting is none.
+  void check_key(const Setting& setting) const { find(setting); }
+
+  /// A complete commented parameter file.
+  void print(std::ostream& out) const;
 
 private:
-  std::string unknown_key(const Setting& setting) const;
+  struct Key {
+    std::string section, name, text;
+    std::function<void(const std::string&)> parse;
+  };
 
-  dealii::ParameterHandler& prm;
+  const Key& find(const Setting& setting) const;
+
   std::string section;
-
-  std::map<std::string, std::string> refused; ///< advice by path
-  /// Keys and their texts, by section.
-  std::map<std::string, std::vector<std::pair<std::string, std::string>>> texts;
+  std::vector<Key> keys;
+  dealii::ParameterHandler prm; ///< prints
 };
 
 } // namespace rollwave

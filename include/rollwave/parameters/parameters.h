@@ -6,15 +6,18 @@
 #include "rollwave/parameters/study_options.h"
 #include "rollwave/run/run_options.h"
 
+#include <filesystem>
 #include <iosfwd>
-#include <optional>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-enum class OutputFile { summary, contact, parameters, solution, plot };
+enum class OutputFile { summary, contact, parameters, solution, surface, plot };
+
+/// The cells of solution.vtu for elements of degree 2 and more.
+enum class CellKind { high_order, linear };
 
 /**
  * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
@@ -25,13 +28,16 @@ struct Parameters : RunOptions {
 
   struct {
     std::string directory = "output";
-    std::vector<OutputFile> files;
+    std::set<OutputFile> files;
+    CellKind cells = CellKind::high_order;
   } output;
+
+  std::filesystem::path file; ///< that was read; never written over
 
   /// What was set, in order of increasing precedence; later entries override earlier ones.
   std::vector<Setting> settings;
 
-  bool wants(OutputFile file) const;
+  bool wants(OutputFile kind) const { return output.files.count(kind) > 0; }
 };
 
 /**

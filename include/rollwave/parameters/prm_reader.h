@@ -25,11 +25,11 @@ struct Setting {
 /**
  * The assignments of a parameter file, in its order; @p name is that of the file in messages. The
  * grammar is that of deal.II's ParameterHandler (`subsection`, `set KEY = VALUE`, `end`, `#` for
- * comments, `\` at the end of a line to continue it); reading it here keeps the line of every entry
- * for later messages.
+ * comments, `\` at the end of a line to continue it), read here to keep the line of every entry. A
+ * value in double quotes may hold a `#` and blanks at its ends.
  *
- * @throws BadInput when the file cannot be read or is longer than 1 MiB, has a line of another
- *         form, unbalanced subsections, or sets a key twice.
+ * @throws BadInput when the file cannot be read, is longer than 1 MiB or no text, has a line of
+ *         another form, unbalanced subsections, or sets a key twice.
  */
 std::vector<Setting> read_settings(std::istream& in, const std::string& name);
 
@@ -38,12 +38,13 @@ std::vector<Setting> read_settings(std::istream& in, const std::string& name);
 std::vector<Setting> read_settings(const std::filesystem::path& file,
                                    MPI_Comm communicator = MPI_COMM_SELF);
 
-/// The assignment in "Section/Key=value". @throws BadInput when @p text has another form.
+/// The assignment in "Section/Key=value"; without a slash its section is empty.
+/// @throws BadInput when @p text has another form.
 Setting parse_setting(const std::string& text, const std::string& origin);
 
-/// Whether a parameter file can hold @p value and gives it back unchanged: without comment, line
-/// end or repeated white space in it, nor a continuation at its end.
-bool is_writable(const std::string& value);
+/// @p value as a parameter file has it, in quotes where it needs them.
+/// @throws std::invalid_argument where none can hold it.
+std::string in_file(const std::string& value);
 
 } // namespace rollwave
 

@@ -5,12 +5,15 @@
 #include "rollwave/scene/scene.h"
 
 #include <optional>
+#include <string>
 
 namespace rollwave {
 
 /// The exact solution of a scene; nullopt where there is none: a force that is not constant, a zone
-/// that cuts the contact short on one side or unevenly, or a series that does not settle.
-std::optional<ExactSolution> find_exact_solution(const Scene& scene);
+/// that cuts the contact short on one side or unevenly, or a series that does not settle. Which of
+/// these it is, is written to @p why_none.
+std::optional<ExactSolution> find_exact_solution(const Scene& scene,
+                                                 std::string* why_none = nullptr);
 
 /// The distance at which the exact solution has the load of Scene::load, to 1e-11 of it, sought
 /// around that of @p scene; nullopt where no exact solution is known.

@@ -1,0 +1,25 @@
+#ifndef ROLLWAVE_OUTPUT_SURFACE_VTU_H
+#define ROLLWAVE_OUTPUT_SURFACE_VTU_H
+
+#include "rollwave/run/result.h"
+#include "rollwave/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// The deformed surface as VTU, one closed line through its nodes, with the point fields `angle`
+/// z, `displacement` u, `pressure` lambda and `gap` phi - u, which is not a number where the road
+/// is not within b of the surface. @p unit is what the unit of the scene is to be written as.
+std::string surface_vtu(const Scene& scene, const Result& result, double unit);
+
+/// The road as VTU, a line with the point field `angle`.
+std::string road_vtu(const Scene& scene, double unit);
+
+/// Angles, evenly spaced, at which the road lies below the axle and within @p radius of it.
+std::vector<double> angles_of_road(const Scene& scene, double radius);
+
+} // namespace rollwave
+
+#endif
