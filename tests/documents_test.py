@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""The documents keep their promises: links and named files exist, sentences and pages are short, and
+doc/parameters.md is what the program prints.
+
+Usage: documents_test.py ROOT ROLLWAVE [--write]      (--write renews doc/parameters.md)
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+root, rollwave = pathlib.Path(sys.argv[1]), sys.argv[2]
+doc = root / 'doc'
+readme, manual, parameters = root / 'README.md', doc / 'manual.md', doc / 'parameters.md'
+faults = []
+
+
+def require(holds, fault):
+    if not holds:
+        faults.append(fault)
+
+
+def prose(text):
+    """The text without code, tables, pictures and addresses; what ends a block ends a sentence."""
+    text = re.sub(r'<!--.*?-->', '', re.sub(r'```.*?```', '.\n', text, flags=re.S), flags=re.S)
+    lines = []
+    for line in text.splitlines():
+        if re.match(r'    \S', line) or re.match(r'!\[', line):
+            line = ''
+        if line.startswith(('#', '|')):
+            line = line.strip('#| ').replace('|', '. ')
+            lines.append('. ')
+        elif line.startswith(('* ', '- ')) or re.match(r'\d+\. ', line):
+            lines.append('. ')
+        lines.append(line if line.strip() else '. ')
+    text = re.sub(r'\[([^]]*)\]\([^)]*\)', r'\1', '\n'.join(lines))
+    return re.sub(r'`[^`]*`', 'code', text)
+
+
+def words(paths):
+    return sum(len(re.findall(r'\S*\w\S*', path.read_text())) for path in paths)
+
+
+def anchors(path):
+    headings = re.findall(r'^#+ (.*)$', path.read_text(), re.M)
+    return {re.sub(r'[^\w -]', '', heading.lower()).replace(' ', '-') for heading in headings}
+
+
+own = [path for path in doc.glob('*.md') if path != parameters]
+cookbook = sorted((doc / 'cookbook').glob('*.md'))
+pages = [readme, *own, *cookbook, *sorted((doc / 'results').glob('*.md'))]
+
+for page in pages:
+    for target in re.findall(r'\]\(([^)\s]+)\)', page.read_text()):
+        if re.match(r'[a-z]+:', target):
+            continue
+        path, _, anchor = target.partition('#')
+        file = (page.parent / path).resolve() if path else page
+        require(file.exists(), f'{page.name}: {target} is not there')
+        if anchor and file.exists():
+            require(anchor in anchors(file), f'{page.name}: {target} has no such heading')
+
+for page in (readme, *own, *cookbook):
+    for file in set(re.findall(r'(?<![\w/.$-])prm/[\w/-]+\.prm', page.read_text())):
+        require((root / file).exists(), f'{page.name}: {file} is not there')
+
+for page in (doc / 'theory.md', doc / 'house.md'):
+    for name in set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text())) - {'floor/file'}:
+        require((root / f'include/rollwave/{name}.h').exists(), f'{page.name}: {name} is not there')
+
+for page in (readme, manual):
+    for sentence in re.split(r'[.?!](?:\s|$)', prose(page.read_text())):
+        n = len(sentence.split())
+        require(n <= 35, f'{page.name}: {n} words in "{" ".join(sentence.split())}"')
+
+require(len(readme.read_text().splitlines()) <= 100, 'README.md has more than 100 lines')
+require(words([readme]) <= 900, f'README.md has {words([readme])} words, more than 900')
+require(words(own) <= 9000, f'doc/*.md have {words(own)} words, more than 9000')
+require(len((doc / 'theory.md').read_text().splitlines()) <= 250, 'theory.md is longer than 250 lines')
+
+for file in sorted((root / 'prm').rglob('*.prm')):
+    name = file.relative_to(root).as_posix()
+    require(any(name in page.read_text() for page in cookbook), f'no page of the cookbook has {name}')
+    require(file.read_text().startswith('#'), f'{name} does not begin with a comment')
+
+printed = subprocess.run([rollwave, '--parameters'], capture_output=True, text=True, check=True).stdout
+current = ('# Parameters\n\nEvery key with its default, as the program prints it by\n\n```sh\n'
+           'build/rollwave --parameters\n```\n\n```\n' + printed.strip() + '\n```\n')
+if '--write' in sys.argv:
+    parameters.write_text(current)
+require(parameters.exists() and parameters.read_text() == current,
+        'doc/parameters.md is not what the program prints; renew it by '
+        'python3 tests/documents_test.py . build/rollwave --write')
+
+print('\n'.join(faults))
+sys.exit(len(faults) > 0)

@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+"""Measures what the documents tell: writes doc/results/NAME.md with the commands, fills the tables
+between "<!-- measured: NAME -->" and "<!-- end -->" in README.md and doc/, draws doc/pictures/.
+
+Usage, in the root of the repository: tests/measure.py [--rollwave build/rollwave] [NAME...]
+All names take some three minutes on two quiet cores.
+"""
+import argparse
+import csv
+import json
+import math
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import tempfile
+
+arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+arguments.add_argument('--rollwave', default='build/rollwave')
+arguments.add_argument('names', nargs='*')
+arguments = arguments.parse_args()
+root = pathlib.Path(__file__).resolve().parent.parent
+rollwave = pathlib.Path(arguments.rollwave).resolve()
+work = pathlib.Path(tempfile.mkdtemp())
+environment = {**os.environ, 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
+               'OMP_NUM_THREADS': '2', 'OPENBLAS_NUM_THREADS': '2'}
+commands = []  # of the measurement at hand, as a reader would type them
+
+
+def call(prm, settings, options=(), launcher=()):
+    """Runs the program; returns the directory of its files."""
+    directory = work / str(len(list(work.iterdir())))
+    line = [*options, f'prm/{prm}.prm']
+    for key, value in settings.items():
+        line += ['--set', f'{key}={value}']
+    command = shlex.join([*launcher, 'build/rollwave', *line])
+    if command not in commands:
+        commands.append(command)
+    subprocess.run([*launcher, rollwave, *line, '--output', directory], cwd=root, env=environment,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return directory
+
+
+def scene(prm, settings=None, repeats=1, **how):
+    """The summary of the fastest of several runs."""
+    runs = [json.loads((call(prm, settings or {}, **how) / 'summary.json').read_text())
+            for _ in range(repeats)]
+    return min(runs, key=lambda run: run['seconds']['total'])
+
+
+def study(prm, settings=None, pictures=None):
+    """The rows of study.csv; pictures by their names here and in doc/pictures."""
+    directory = call(prm, settings or {})
+    for source, target in (pictures or {}).items():
+        if (directory / source).exists():
+            shutil.copy(directory / source, root / 'doc/pictures' / target)
+        else:
+            print('  missing:', source)
+    with open(directory / 'study.csv', newline='') as file:
+        return [{key: number(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def shown(value):
+    if not isinstance(value, float):
+        return str(value)
+    return str(int(value)) if value == int(value) and abs(value) < 1e9 else f'{value:.3g}'
+
+
+def table(titles, rows):
+    lines = [titles, ['---'] * len(titles), *[[shown(cell) for cell in row] for row in rows]]
+    return ''.join('| ' + ' | '.join(line) + ' |\n' for line in lines)
+
+
+def order(rows, x, error):
+    """The slope of log(error) over log(x) in the last four rows that have the error."""
+    points = [(math.log(row[x]), math.log(row[error])) for row in rows if row[error] != ''][-4:]
+    x_mean, y_mean = (sum(column) / len(points) for column in zip(*points))
+    return (sum((x - x_mean) * (y - y_mean) for x, y in points) /
+            sum((x - x_mean) ** 2 for x, _ in points))
+
+
+def spread(values):
+    values = [value for value in values if value != '']
+    return f'{min(values):.2f} to {max(values):.2f}'
+
+
+def figures():
+    rows = []
+    for figure in range(4, 9):
+        name = f'figure-{figure}'
+        run = scene(name, options=['--verify'])
+        error = run['error']
+        rows.append([name, run['mesh']['dofs'], error['exact_force'] / run['contact']['force'],
+                     error['exact_relative'], error['certified_relative'],
+                     scene(name, repeats=2)['seconds']['total']])
+    return [table(['scene', 'unknowns', 'error of F', 'error in the energy norm', 'certified',
+                   'seconds'], rows)] * 2
+
+
+def orders():
+    short, rows = [], []
+    for name, meshes in [('regular', 6), ('critical', 5), ('cut', 6)]:
+        refinements = ' | '.join(str(i) for i in range(meshes))
+        vary = f'Mesh/Degree = 1 | 2; Mesh/Global refinements = {refinements}'
+        runs = study(f'studies/order-{name}', {'Study/Vary': vary},
+                     {'study-h.svg': f'order-{name}.svg'})
+        for degree in (1, 2):
+            own = [run for run in runs if run['Mesh/Degree'] == degree]
+            expected = own[-1]['expected_order']
+            short.append([name, f'Q{degree}', own[-1]['dofs'], own[-1]['error_relative'],
+                          f'{order(own, "h_max", "error_relative"):.2f}', expected])
+            rows += [[name, f'Q{degree}', run['dofs'], run['contact_steps'], run['error_relative'],
+                      run['error_l2_norm'], run['error_pressure'], run['error_force'],
+                      run['error_energy']] for run in own]
+    return (table(['contact', 'elements', 'finest, unknowns', 'its error', 'order in h', 'expected'],
+                  short),
+            table(['contact', 'elements', 'unknowns', 'steps', 'energy norm, relative', 'L2 norm',
+                   'pressure', 'F', 'J'], rows))
+
+
+def adaptive():
+    short, rows = [], []
+    for name in ('regular', 'critical', 'cut'):
+        vary = ('Mesh/Degree = 1 | 2; Mesh/Marking = all | bulk; '
+                'Mesh/Most unknowns = 200 | 800 | 3200 | 12800 | 51200')
+        runs = study(f'studies/adaptive-{name}', {'Study/Vary': vary},
+                     {'study-time.svg': f'adaptive-{name}.svg'})
+        for degree, marking in ((1, 'all'), (1, 'bulk'), (2, 'all'), (2, 'bulk')):
+            own = [run for run in runs
+                   if (run['Mesh/Degree'], run['Mesh/Marking']) == (degree, marking)]
+            kind = 'uniform' if marking == 'all' else 'adaptive'
+            last = own[-1]
+            short.append([name, f'Q{degree}', kind, last['dofs'], last['error_relative'],
+                          f'{-2 * order(own, "dofs", "error_relative"):.2f}',
+                          last['expected_order'], last['certified_relative'],
+                          spread([run['bound_over_error'] for run in own]), last['seconds']])
+            rows += [[name, f'Q{degree}', kind, run['dofs'], run['contact_steps'],
+                      run['error_relative'], run['certified_relative'], run['effectivity'],
+                      run['bound_over_error'], run['seconds']] for run in own]
+    return (table(['contact', 'elements', 'mesh', 'unknowns', 'error', 'order', 'expected',
+                   'certified', 'bound / error, all meshes', 'seconds'], short),
+            table(['contact', 'elements', 'mesh', 'unknowns', 'steps', 'error', 'certified',
+                   'effectivity', 'bound / error', 'seconds'], rows))
+
+
+def extremes():
+    runs = study('studies/extremes', {'Study/True errors': 'false'})
+    chosen = ['omega b = 1 - 1e-2', 'omega b = 1 - 1e-8', 'omega b = 1', 'thin ring, b - a = 1e-2 b',
+              'thin ring, b - a = 1e-4 b', 'thin ring, b - a = 1e-6 b', 'thin ring at omega b = 1',
+              'small hub, a = 1e-2 b', 'small hub, a = 1e-6 b', 'hairline contact, b - c = 1e-4 b',
+              'hairline contact, b - c = 1e-14 b',
+              'hairline contact at omega b = 1, b - c = 1e-14 b', 'road beyond b',
+              'road 1e-9 above the hub', 'b = 1e-150', 'b = 1e150', 'f = -1e8', 'f = 1e8',
+              'zone cut on one side', 'zone of one node', 'touching in one point', '1 x 3 cells',
+              'cells 1e4 times longer than high, Q1', 'cells 1e4 times higher than long, Q1',
+              'Uzawa, rho = 3.4', 'Uzawa, rho = 100']
+    rows = []
+    for run in runs:
+        outcome = ('solved' if run['failure'] == '' else
+                   'less than wanted' if run['solved'] else 'not solved')
+        rows.append([run['scene'], run['dofs'], run['contact_steps'],
+                     f'{run["force"]:.9g}' if run['solved'] else '', run['certified_relative'],
+                     run['residual'], run['seconds'], outcome])
+    titles = ['scene', 'unknowns', 'steps', 'F', 'certified', 'largest residual', 'seconds', 'outcome']
+    return table(titles, [row for row in rows if row[0] in chosen]), table(titles, rows)
+
+
+def wanted():
+    rows = []
+    for name in ('figure-4', 'figure-5'):
+        for error in ('1e-2', '1e-3', '1e-4', '1e-5'):
+            settings = {'Mesh/Radial cells': 2, 'Mesh/Angular cells': 24,
+                        'Mesh/Wanted relative error': error, 'Output/Files': 'summary'}
+            run = scene(name, settings, options=['--verify'])
+            seconds = scene(name, settings, repeats=3)['seconds']['total']
+            rows.append([name, error, run['mesh']['dofs'], len(run['cycles']),
+                         run['error']['certified_relative'], run['error'].get('exact_relative', '-'),
+                         run['error']['exact_force'] / run['contact']['force'], seconds])
+    return [table(['scene', 'wanted', 'unknowns', 'meshes', 'certified', 'true error', 'error of F',
+                   'seconds'], rows)] * 2
+
+
+def uniform(degree, radial, angular):
+    return {'Mesh/Degree': degree, 'Mesh/Radial cells': radial, 'Mesh/Angular cells': angular}
+
+
+def phases():
+    rows = []
+    for degree, radial, angular in ((1, 88, 1112), (2, 44, 556), (1, 282, 3544), (2, 141, 1772)):
+        run = scene('figure-4', {**uniform(degree, radial, angular),
+                                 'Output/Files': 'summary, contact, solution'}, repeats=3)
+        seconds = run['seconds']
+        rows.append([f'Q{degree}', run['mesh']['dofs'],
+                     *[sum(seconds.get(phase, 0.) for phase in group) for group in (
+                         ['mesh', 'space'], ['assembly'], ['ordering', 'factorisation'], ['contact'],
+                         ['back-substitution', 'measurement'], ['certificate'], ['output'],
+                         ['total'])], round(run['peak_memory_mib'])])
+    return [table(['elements', 'unknowns', 'mesh', 'assembly', 'factorisation', 'contact',
+                   'back-substitution', 'certificate', 'files', 'total', 'MiB'], rows)] * 2
+
+
+def sweep():
+    rows = []
+    for degree, radial, angular in ((1, 88, 1112), (2, 44, 556)):
+        runs = study('figure-4', {**uniform(degree, radial, angular), 'Output/Files': 'summary',
+                                  'Study/Vary': 'Road/Distance = 0.78 | 0.79 | 0.8 | 0.81 | 0.82 | 0.83'})
+        others = sorted(run['seconds'] for run in runs[1:])
+        rows.append([f'Q{degree}', runs[0]['dofs'], runs[0]['seconds'], others[len(others) // 2]])
+    return [table(['elements', 'unknowns', 'first distance, seconds', 'a further one, seconds'],
+                  rows)] * 2
+
+
+def processes():
+    settings = {**uniform(2, 96, 1194), 'Output/Files': 'summary'}
+    rows = []
+    for n, kind in ((1, 'direct'), (1, 'iterative'), (2, 'iterative')):
+        launcher = ['mpirun', '--bind-to', 'none', '-np', str(n)] if n > 1 else []
+        run = scene('figure-4', {**settings, 'Solver/Kind': kind}, repeats=2, launcher=launcher)
+        rows.append([n, kind, run['mesh']['dofs'], run['iterations']['linear'],
+                     run['seconds']['total'], round(run['peak_memory_mib'])])
+    return [table(['processes', 'kind', 'unknowns', 'CG iterations', 'seconds',
+                   'MiB of the largest process'], rows)] * 2
+
+
+def pictures():
+    for name in ('figure-4', 'examples/two-patches'):
+        shutil.copy(call(name, {}) / 'scene.svg',
+                    root / 'doc/pictures' / f'{pathlib.Path(name).name}.svg')
+    study('examples/load-deflection', pictures={'study-curves.svg': 'load-deflection.svg'})
+    study('examples/speed-to-critical', pictures={'study-profiles.svg': 'speed-to-critical.svg'})
+    study('examples/map-load', pictures={'study-map.svg': 'map-load.svg'})
+    study('examples/drum', pictures={'study-profiles.svg': 'drum.svg'})
+    study('figure-9', pictures={'study.svg': 'figure-9.svg'})
+    subprocess.run(['xvfb-run', '-a', '/usr/bin/python3', root / 'tests/screenshot.py',
+                    call('figure-4', {}), root / 'doc/pictures/paraview.png'])
+
+
+def fill(name, text):
+    """Puts a table to its places in the documents."""
+    place = re.compile(rf'(<!-- measured: {name} -->\n).*?(<!-- end -->)', re.S)
+    for page in (root / 'README.md', *(root / 'doc').rglob('*.md')):
+        before = page.read_text()
+        after = place.sub(lambda match: match[1] + text + match[2], before)
+        if after != before:
+            page.write_text(after)
+
+
+for measurement in (figures, orders, adaptive, extremes, wanted, phases, sweep, processes, pictures):
+    name = measurement.__name__
+    if arguments.names and name not in arguments.names:
+        continue
+    print(name, flush=True)
+    commands.clear()
+    tables = measurement()
+    if tables:
+        short, full = tables
+        fill(name, short)
+        (root / 'doc/results' / f'{name}.md').write_text(
+            f'# {name.capitalize()}\n\nWritten by `tests/measure.py {name}`, which runs\n\n```sh\n' +
+            '\n'.join(commands) + '\n```\n\n' + full)
+shutil.rmtree(work)
