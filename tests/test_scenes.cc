@@ -1,5 +1,7 @@
 #include "test_scenes.h"
 
+#include "rollwave/error_bound/force_integral.h"
+
 #include "rollwave/mesh/ring_mesh.h"
 
 #include <deal.II/base/numbers.h>
@@ -51,6 +53,11 @@ const std::vector<PaperScene>& paper_scenes() {
 Discretisation::Discretisation(const Scene& scene, const Parameters& parameters)
     : triangulation(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree) {}
+
+FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
+  RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
+  return assemble_load(space, ForceIntegral(space, scene, shapes), shapes);
+}
 
 FieldVector random_load(const RingSpace& space,
                         const dealii::AffineConstraints<double>& constraints) {

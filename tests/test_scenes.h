@@ -49,6 +49,9 @@ struct Discretisation {
   RingSpace space;
 };
 
+/// The load of a scene's force.
+FieldVector assemble_load(const RingSpace& space, const Scene& scene);
+
 /// A right-hand side between -1 and 1 at random, the same in each run, zero where @p constraints
 /// hold: no angular mode is missing from it.
 FieldVector random_load(const RingSpace& space,

@@ -69,8 +69,8 @@ AdmissibleTrace::AdmissibleTrace(const RingSpace& space, const Scene& scene,
 }
 
 void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end) const {
-  const auto excess_at = [&](double t) { return excess(edge, t); };
-  const auto slope_at = [&](double t) { return excess_slope(edge, t); };
+  const auto excess_at = [&](double t) { return excess(edge, t).value; };
+  const auto slope_at = [&](double t) { return excess(edge, t).slope; };
   std::vector<double> ends = {zone_begin};
   const auto split = [&](double left, double right, double at_left, double at_right) {
     if (at_left * at_right < 0)
@@ -110,54 +110,38 @@ void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end
     edge.pieces.push_back({Piece::Kind::ramp, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
 }
 
-double AdmissibleTrace::discrete(const Edge& edge, double t) const {
-  double sum = 0;
-  for (unsigned int i = 0; i < shapes.size(); ++i)
-    sum += edge.nodal_values[i] * shapes[i].value(t);
-  return sum;
-}
-
-double AdmissibleTrace::discrete_slope(const Edge& edge, double t) const {
-  double sum = 0;
-  std::vector<double> both(2);
+AdmissibleTrace::ValueAndSlope AdmissibleTrace::excess(const Edge& edge, double t) const {
+  const double length = edge.end - edge.begin, z = edge.begin + t * length;
+  ValueAndSlope excess = {-road(z), -road_slope(z)};
+  double both[2];
   for (unsigned int i = 0; i < shapes.size(); ++i) {
-    shapes[i].value(t, both);
-    sum += edge.nodal_values[i] * both[1];
+    shapes[i].value(t, 1, both);
+    excess.value += edge.nodal_values[i] * both[0];
+    excess.slope += edge.nodal_values[i] * both[1] / length;
   }
-  return sum / (edge.end - edge.begin);
-}
-
-double AdmissibleTrace::excess(const Edge& edge, double t) const {
-  return discrete(edge, t) - road(edge.begin + t * (edge.end - edge.begin));
-}
-
-double AdmissibleTrace::excess_slope(const Edge& edge, double t) const {
-  return discrete_slope(edge, t) - road_slope(edge.begin + t * (edge.end - edge.begin));
+  return excess;
 }
 
 AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int face, const Piece& piece,
                                                         double t) const {
   const Edge& edge = edges[face];
-  const double length = edge.end - edge.begin;
-  switch (piece.kind) {
-  case Piece::Kind::free:
-    break;
-  case Piece::Kind::limited:
-    if (const double here = excess(edge, t); here <= 0)
-      return {0, 0, -here};
-    [[fallthrough]];
-  case Piece::Kind::touching:
-    return {-excess(edge, t), -excess_slope(edge, t), 0};
-  case Piece::Kind::ramp: {
+  if (piece.kind == Piece::Kind::free)
+    return {0, 0, 0};
+  if (piece.kind == Piece::Kind::ramp) {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
-    return {piece.value_begin + slope * (t - piece.t_begin), slope / length, 0};
+    return {piece.value_begin + slope * (t - piece.t_begin), slope / (edge.end - edge.begin), 0};
   }
-  }
-  return {0, 0, 0};
+  const auto [above, slope] = excess(edge, t);
+  if (piece.kind == Piece::Kind::limited && above <= 0)
+    return {0, 0, -above};
+  return {-above, -slope, 0};
 }
 
 double AdmissibleTrace::displacement(unsigned int face, const Piece& piece, double t) const {
-  return discrete(edges[face], t) + correction(face, piece, t).value;
+  double discrete = 0;
+  for (unsigned int i = 0; i < shapes.size(); ++i)
+    discrete += edges[face].nodal_values[i] * shapes[i].value(t);
+  return discrete + correction(face, piece, t).value;
 }
 
 } // namespace rollwave

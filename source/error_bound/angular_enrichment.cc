@@ -1,18 +1,42 @@
 #include "rollwave/error_bound/angular_enrichment.h"
 
-#include "rollwave/error_bound/enrichment_columns.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/lexicographic_dofs.h"
+#include "rollwave/mesh/tensor_elements.h"
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+
+#include <boost/functional/hash.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
+
+extern "C" void dpbsv_(const char* triangle, const int* n, const int* width, const int* n_rhs,
+                       double* band, const int* stride, double* b, const int* ldb, int* info);
 
 namespace rollwave {
 
 using namespace dealii;
+
+/// A cell of a column with its faces towards the hub and the surface.
+struct AngularEnrichment::Cell {
+  using Face = std::pair<types::global_dof_index, types::global_dof_index>; ///< of its vertices
+  Face lower, upper;
+  double length, r_begin, r_end;
+  unsigned int number;      ///< of its n values: that of an own active cell, or behind those
+  int edge;                 ///< of RingSpace::surface_faces(), -1 inside
+  bool is_cut;              ///< another process has the next cell of the column
+  std::vector<double> load; ///< on the way to other processes
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned int) {
+    archive& lower& upper& length& r_begin& r_end& number& edge& is_cut& load;
+  }
+};
 
 namespace {
 
@@ -23,8 +47,7 @@ namespace {
 double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wanted) {
   double nearest = wanted, binomial = 1;
   for (unsigned int k = 0; k <= degree; ++k) {
-    const double of_mode = (degree + k) % 2 ? -binomial * std::sqrt(2 * degree + 1.)
-                                            : binomial * std::sqrt(2 * degree + 1.);
+    const double of_mode = ((degree + k) % 2 ? -1 : 1) * binomial * std::sqrt(2 * degree + 1.);
     const double limit = pressure(1. * k / degree) / -of_mode;
     nearest = of_mode < 0 ? std::min(nearest, limit) : std::max(nearest, limit);
     binomial *= 1. * (degree - k) / (k + 1);
@@ -32,69 +55,14 @@ double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wa
   return nearest;
 }
 
-/// Integrals over t of the polynomials of a degree, by Gauss' rule.
-struct AngularIntegrals {
-  explicit AngularIntegrals(unsigned int degree) : gauss(degree + 2), bubble_of(degree + 1) {
-    const auto mode = AngularEnrichment::mode(degree), bubble = mode.primitive();
-    const auto lagrange = lobatto_lagrange(degree);
-    for (unsigned int q = 0; q < gauss.size(); ++q) {
-      const double t = gauss.point(q)[0], weight = gauss.weight(q);
-      weighted_mode.push_back(weight * mode.value(t));
-      for (unsigned int j = 0; j <= degree; ++j)
-        bubble_of[j] += weight * bubble.value(t) * lagrange[j].value(t);
-    }
-  }
-
-  QGauss<1> gauss;
-  std::vector<double> weighted_mode; ///< P at the points, times their weights
-  std::vector<double> bubble_of;     ///< int beta L_j dt
-};
-
-/// The load of D(tau) as a function of g in the rows of columns, where they are not fixed.
-std::vector<double> assemble_load(const RingSpace& space, const Scene& scene,
-                                  RadialShapesOfMesh& shapes, const FieldVector& potential,
-                                  const std::vector<EdgePressure>& pressures,
-                                  const ForceIntegral* force, const EnrichmentColumns& columns) {
-  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
-  const AngularIntegrals integrals(degree);
-  LexicographicDofs dofs(space.dof_handler());
-  const auto mode = AngularEnrichment::mode(degree);
-  std::vector<double> psi_bubble(n), force_on_line(n);
-  std::vector<double> load_of_row(columns.form.size());
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    const double length = high[1] - low[1];
-    const RadialShapes& radial = shapes.on(low[0], high[0]);
-    double* const load = &load_of_row[columns.first_rows[cell->active_cell_index()]];
-    const auto& of_cell = dofs.of(cell);
-    for (unsigned int i = 0; i < n; ++i) {
-      psi_bubble[i] = 0;
-      for (unsigned int j = 0; j < n; ++j)
-        psi_bubble[i] += integrals.bubble_of[j] * potential(of_cell[i + n * j]);
-    }
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int k = 0; k < n; ++k)
-        load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
-    for (unsigned int p = 0; force && p < force->rule().size(); ++p) {
-      radial.integrate_over_r(force->on_line(cell->active_cell_index(), p), force_on_line);
-      const double weight =
-          length * force->rule().weight(p) * mode.value(force->rule().point(p)[0]);
-      for (unsigned int i = 0; i < n; ++i)
-        load[i] += weight * force_on_line[i];
-    }
-  }
-  for (const auto& [row, edge] : columns.surface_rows) {
-    if (!(pressures[edge].mean > 0))
-      continue;
-    const SurfaceFace& face = space.surface_faces()[edge];
-    const double length = face.end - face.begin;
-    for (unsigned int p = 0; p < integrals.gauss.size(); ++p)
-      load_of_row[row] -= length * integrals.weighted_mode[p] *
-                          scene.road(face.begin + integrals.gauss.point(p)[0] * length);
-  }
-  return load_of_row;
+/// Whether the neighbour of a cell over its face @p f towards the hub or the surface is as long,
+/// and another process has it.
+bool is_cut(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) {
+  if (cell->at_boundary(f))
+    return false;
+  const auto neighbour = cell->neighbor(f);
+  return neighbour->level() == cell->level() && neighbour->is_active() &&
+         !neighbour->is_locally_owned();
 }
 
 } // namespace
@@ -106,42 +74,169 @@ Polynomials::Polynomial<double> AngularEnrichment::mode(unsigned int degree) {
 AngularEnrichment::AngularEnrichment(const RingSpace& space, const Scene& scene,
                                      RadialShapesOfMesh& shapes, const FieldVector& potential,
                                      const std::vector<EdgePressure>& pressures,
-                                     const ForceIntegral* force, const EnrichmentColumns& columns)
-    : n(space.dof_handler().get_fe().degree + 1), field(space.make_field()) {
-  ColumnForm form = columns.form;
-  std::vector<double> load_of_row =
-      assemble_load(space, scene, shapes, potential, pressures, force, columns);
-  std::vector<EnrichmentColumns::SurfaceRow> free_rows; // where pressures can change
-  for (const auto& surface_row : columns.surface_rows)
-    if (pressures[surface_row.edge].mean > 0)
-      free_rows.push_back(surface_row);
-    else {
-      form.fix(surface_row.row);
-      load_of_row[surface_row.row] = 0;
+                                     const ForceIntegral* force)
+    : n(space.dof_handler().get_fe().degree + 1),
+      values(n * space.dof_handler().get_triangulation().n_active_cells()) {
+  assemble_loads(space, scene, shapes, potential, pressures, force);
+  std::vector<Cell> cells;
+  for (const auto& cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      const auto edge = space.surface_face(cell);
+      cells.push_back({{cell->vertex_dof_index(0, 0), cell->vertex_dof_index(2, 0)},
+                       {cell->vertex_dof_index(1, 0), cell->vertex_dof_index(3, 0)},
+                       high[1] - low[1],
+                       low[0],
+                       high[0],
+                       cell->active_cell_index(),
+                       edge ? int(*edge) : -1,
+                       is_cut(cell, 0) || is_cut(cell, 1),
+                       {}});
     }
-  for (const unsigned int row : columns.fixed_rows)
-    load_of_row[row] = 0;
-  const FieldVector load = form.add_up(load_of_row);
-  field = form.solve(load);
-
-  // Of a convex function of each column the least with a bound of one value has that value at the
-  // bound, and the rest as is best then.
-  const std::vector<double> g = form.rows_of(field);
-  std::vector<double> change(g.size());
-  std::vector<unsigned int> changed_rows;
-  const double b = scene.outer_radius;
-  for (const auto& [row, edge] : free_rows) {
-    change[row] = b * nearest_mode(pressures[edge], n - 1, g[row] / b) - g[row];
-    changed_rows.push_back(row);
-  }
-  field += form.follow(std::move(change), changed_rows);
-  field.update_ghost_values();
+  const std::size_t n_own = values.size();
+  if (!is_alone(space.communicator()))
+    add_cells_of_others(space, cells);
+  for (const auto& column : columns_of(cells))
+    if (std::any_of(column.begin(), column.end(),
+                    [&](const Cell* cell) { return n * cell->number < n_own; }))
+      solve_column(scene, shapes, pressures, column);
 }
 
-void AngularEnrichment::values(const std::vector<types::global_dof_index>& dofs,
-                               std::vector<double>& g) const {
-  for (unsigned int i = 0; i < n; ++i)
-    g[i] = field(dofs[bubble_carrier(i, n)]);
+/// The columns that cells form, from the inside out.
+std::vector<AngularEnrichment::Column>
+AngularEnrichment::columns_of(const std::vector<Cell>& cells) {
+  std::unordered_map<Cell::Face, const Cell*, boost::hash<Cell::Face>> above, below;
+  for (const Cell& cell : cells) {
+    above[cell.lower] = &cell;
+    below[cell.upper] = &cell;
+  }
+  std::vector<Column> columns;
+  for (const Cell& cell : cells)
+    if (below.count(cell.lower) == 0) {
+      columns.push_back({&cell});
+      for (auto next = above.find(cell.upper); next != above.end();
+           next = above.find(next->second->upper))
+        columns.back().push_back(next->second);
+    }
+  return columns;
+}
+
+/// The derivatives of D(tau) by the values of g.
+void AngularEnrichment::assemble_loads(const RingSpace& space, const Scene& scene,
+                                       RadialShapesOfMesh& shapes, const FieldVector& potential,
+                                       const std::vector<EdgePressure>& pressures,
+                                       const ForceIntegral* force) {
+  const unsigned int degree = n - 1;
+  const QGauss<1> gauss(degree + 2);
+  const auto legendre = mode(degree), beta = legendre.primitive();
+  const auto lagrange = lobatto_lagrange(degree);
+  std::vector<double> bubble_of(n); // int beta L_j dt
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int q = 0; q < gauss.size(); ++q) {
+      const double t = gauss.point(q)[0];
+      bubble_of[j] += gauss.weight(q) * beta.value(t) * lagrange[j].value(t);
+    }
+  LexicographicDofs dofs(space.dof_handler());
+  std::vector<double> psi_bubble(n), force_on_line(n);
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    const double length = high[1] - low[1];
+    const RadialShapes& radial = shapes.on(low[0], high[0]);
+    double* const load = &values[n * cell->active_cell_index()];
+    const auto& of_cell = dofs.of(cell);
+    for (unsigned int i = 0; i < n; ++i) {
+      psi_bubble[i] = 0;
+      for (unsigned int j = 0; j < n; ++j)
+        psi_bubble[i] += bubble_of[j] * potential(of_cell[i + n * j]);
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < n; ++k)
+        load[i] -= length * length * radial.products.stiffness(i, k) * psi_bubble[k];
+    for (unsigned int p = 0; force && p < force->rule().size(); ++p) {
+      radial.integrate(force->on_line(cell->active_cell_index(), p), radial.weight_over_r,
+                       &RadialShape::potential, force_on_line);
+      const double weight =
+          length * force->rule().weight(p) * legendre.value(force->rule().point(p)[0]);
+      for (unsigned int i = 0; i < n; ++i)
+        load[i] += weight * force_on_line[i];
+    }
+    const auto edge = space.surface_face(cell);
+    if (!edge || !(pressures[*edge].mean > 0))
+      continue;
+    const double begin = space.surface_faces()[*edge].begin;
+    for (unsigned int q = 0; q < gauss.size(); ++q) {
+      const double t = gauss.point(q)[0];
+      load[degree] -= length * gauss.weight(q) * legendre.value(t) * scene.road(begin + t * length);
+    }
+  }
+}
+
+/// Adds what other processes have of columns that several share, with the loads.
+void AngularEnrichment::add_cells_of_others(const RingSpace& space, std::vector<Cell>& cells) {
+  std::vector<Cell> shared;
+  for (const Column& column : columns_of(cells))
+    if (column.front()->is_cut || column.back()->is_cut)
+      for (const Cell* const cell : column) {
+        shared.push_back(*cell);
+        shared.back().load.assign(on_cell(cell->number), on_cell(cell->number) + n);
+      }
+  const auto of_all = Utilities::MPI::all_gather(space.communicator(), shared);
+  for (unsigned int process = 0; process < of_all.size(); ++process)
+    for (Cell cell : of_all[process])
+      if (process != process_number(space.communicator())) {
+        cell.number = values.size() / n;
+        values.insert(values.end(), cell.load.begin(), cell.load.end());
+        cells.push_back(std::move(cell));
+      }
+}
+
+/// Minimises int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz, by half, less the loads.
+void AngularEnrichment::solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
+                                     const std::vector<EdgePressure>& pressures,
+                                     const Column& column) {
+  const int width = n - 1, stride = n, rows = column.size() * width + 1, n_rhs = 2;
+  const double length = column.front()->length;
+  const double beta_square = 1. / (2. * (2 * width + 3) * (2 * width - 1)); // int beta^2 dt
+  std::vector<double> band(rows * stride); // LAPACK's storage of the lower triangle
+  std::vector<double> g(n_rhs * rows);     // for the loads, then for one at the outermost node
+  for (unsigned int c = 0; c < column.size(); ++c) {
+    const int begin = c * width;
+    const ShapeProducts& products = shapes.on(column[c]->r_begin, column[c]->r_end).products;
+    for (int i = 0; i < stride; ++i) {
+      g[begin + i] += values[n * column[c]->number + i];
+      for (int k = i; k < stride; ++k)
+        band[(begin + i) * stride + k - i] +=
+            length *
+            (length * length * beta_square * products.stiffness(i, k) + products.mass(i, k));
+    }
+  }
+  g[2 * rows - 1] = 1;
+  if (column.front()->r_begin != scene.inner_radius) {
+    std::fill_n(band.begin(), stride, 0.);
+    band[0] = 1;
+    g[0] = 0;
+  }
+  // By as much as rounding may make a matrix indefinite that is hardly definite.
+  constexpr double round_off = 1e-14;
+  for (int i = 0; i < rows; ++i)
+    band[i * stride] *= 1 + round_off;
+  int info = 0;
+  dpbsv_("L", &rows, &width, &n_rhs, band.data(), &stride, g.data(), &rows, &info);
+  AssertThrow(info == 0, ExcMessage("a banded matrix is not positive definite"));
+
+  // Of a convex function the least with a bound of one value has that value at the bound, and the
+  // rest as is best then.
+  const double b = scene.outer_radius;
+  const int edge = column.back()->edge;
+  const double outermost = edge < 0 ? 0 : b * nearest_mode(pressures[edge], width, g[rows - 1] / b);
+  const double factor = (outermost - g[rows - 1]) / g[2 * rows - 1];
+  for (int i = 0; i < rows; ++i)
+    g[i] += factor * g[rows + i];
+  g[rows - 1] = outermost;
+  for (unsigned int c = 0; c < column.size(); ++c)
+    std::copy_n(&g[c * width], n, &values[n * column[c]->number]);
 }
 
 } // namespace rollwave

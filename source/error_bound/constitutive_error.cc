@@ -1,7 +1,6 @@
 #include "rollwave/error_bound/constitutive_error.h"
 
-#include "rollwave/error_bound/angular_enrichment.h"
-#include "rollwave/error_bound/dual_problem.h"
+#include "rollwave/error_bound/force_integral.h"
 #include "rollwave/mesh/lexicographic_dofs.h"
 #include "rollwave/mesh/tensor_elements.h"
 #include "rollwave/scene/scene.h"
@@ -21,14 +20,12 @@ namespace {
 
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
-  double t;
   std::vector<double> value, derivative; ///< the latter d/dt
   double bubble;                         ///< of AngularEnrichment: beta
   double mode;                           ///< P
 
   AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
-                const Polynomials::Polynomial<double>& beta, double t)
-      : t(t) {
+                const Polynomials::Polynomial<double>& beta, double t) {
     double both[2];
     for (const auto& polynomial : lagrange) {
       polynomial.value(t, 1, both);
@@ -41,96 +38,84 @@ struct AngularShapes {
   }
 };
 
-/// The integrals over a line z = const of a cell, each over dr, or sums of them: in a higher
-/// precision, lest those over very many cells be off by more than the bounds of J are apart.
-template <typename Number>
+/// Integrals over dr, or sums of them: in a higher precision, lest those over very many cells be
+/// off by more than the bounds of J are apart.
 struct Integrals {
-  Number bound_squared = 0; ///< of eta^2 without the road's term
-  Number norm_squared = 0;
-  Number work_of_force = 0;
-  Number work_of_correction = 0;
+  long double bound_squared = 0; ///< of eta^2 without the road's term
+  long double norm_squared = 0;
+  long double work_of_force = 0;
+  long double work_of_correction = 0;
 
-  template <typename Other>
-  void add(const Integrals<Other>& other, double weight) {
+  void add(const Integrals& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
     work_of_correction += weight * other.work_of_correction;
   }
 };
-using LineIntegrals = Integrals<double>;
-using Sums = Integrals<long double>;
 
-/// The integrands on one cell after another.
-class Integrand {
+/// Integrates over one cell after another.
+class CellIntegrals {
 public:
-  Integrand(const RingSpace& space, const FieldVector& displacement, const FieldVector& potential,
-            const AngularEnrichment& bubbles, DualProblem& dual)
-      : displacement(displacement), potential(potential), bubbles(bubbles), dual(dual),
+  CellIntegrals(const RingSpace& space, const Scene& scene, const AdmissibleFields& fields,
+                RadialShapesOfMesh& shapes)
+      : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
-        beta(AngularEnrichment::mode(n - 1).primitive()), dofs(space.dof_handler()), u(n * n),
-        psi(n * n), g(n), line_u(n), line_u_z(n), line_psi(n), line_psi_z(n) {
-    const Polynomials::Legendre highest(n);
-    const QGauss<1> gauss(n + 1);
-    for (unsigned int q = 0; q < gauss.size(); ++q) {
-      const double t = gauss.point(q)[0];
-      unseen_share += gauss.weight(q) * highest.value(t) * beta.value(t);
-    }
+        beta(AngularEnrichment::mode(n - 1).primitive()), rule(angular_rule(scene, n - 1)),
+        along_road(n + 5), dofs(space.dof_handler()), u(n * n), psi(n * n), line_u(n), line_u_z(n),
+        line_psi(n), line_psi_z(n) {
+    for (const auto& point : rule.get_points())
+      lines.emplace_back(lagrange, beta, point[0]);
   }
 
-  void reinit(const DoFHandler<2>::active_cell_iterator& cell) {
+  Integrals over(const DoFHandler<2>::active_cell_iterator& cell) {
     low = cell->vertex(0);
     high = cell->vertex(3);
     length = high[1] - low[1];
     height = high[0] - low[0];
     number = cell->active_cell_index();
-    radial = &dual.shapes.on(low[0], high[0]);
+    radial = &shapes.on(low[0], high[0]);
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < of_cell.size(); ++i) {
-      u[i] = displacement(of_cell[i]);
-      psi[i] = potential(of_cell[i]);
+      u[i] = fields.displacement(of_cell[i]);
+      psi[i] = fields.potential(of_cell[i]);
     }
-    bubbles.values(of_cell, g);
+    g = fields.bubbles.on_cell(number);
+    if (const auto edge = space.surface_face(cell))
+      return at_surface(*edge);
+    Integrals sums;
+    for (unsigned int p = 0; p < rule.size(); ++p)
+      sums.add(
+          on_line(lines[p], {0, 0, 0}, fields.force ? fields.force->on_line(number, p) : nullptr),
+          rule.weight(p) * length);
+    return sums;
   }
-
-  /// On the line number @p p of the rule along z, where v = u_h.
-  LineIntegrals on_line(const AngularShapes& angular, unsigned int p) {
-    return on_line(angular, {0, 0, 0}, dual.force ? dual.force->on_line(number, p) : nullptr);
-  }
-
-  /// On any line, with the correction c of v on the surface.
-  LineIntegrals on_line(const AngularShapes& angular,
-                        const AdmissibleTrace::Correction& correction) {
-    if (dual.force)
-      dual.force->on_line_at(number, angular.t, moments);
-    return on_line(angular, correction, dual.force ? moments.data() : nullptr);
-  }
-
-  /// What a rule of degree + 1 points in z does not see of int (psi_s + v_z)^2 ds dz: the bubbles'
-  /// share of Legendre's polynomial of degree + 1, which vanishes there.
-  double unseen_square() const {
-    // Square by square: the form of g in the stiffness matrix cancels where the mean of g prevails.
-    double square = 0;
-    for (unsigned int q = 0; q < radial->r.size(); ++q) {
-      double g_s = 0;
-      for (unsigned int i = 0; i < n; ++i)
-        g_s += radial->shapes[n * q + i].potential_s * g[i];
-      square += radial->weight[q] * radial->r[q] * radial->alpha[q] * g_s * g_s;
-    }
-    return length * length * length * unseen_share * unseen_share * square;
-  }
-
-  /// g on r = b.
-  double surface_bubble() const { return g.back(); }
-
-  double angular_length() const { return length; }
-
-  AngularShapes angular_shapes(double t) const { return AngularShapes(lagrange, beta, t); }
 
 private:
+  /// Where v differs from u_h and the road's term is.
+  Integrals at_surface(unsigned int edge) {
+    Integrals sums;
+    for (const auto& piece : fields.trace.pieces(edge))
+      for (unsigned int p = 0; p < along_road.size(); ++p) {
+        const double share = piece.t_end - piece.t_begin;
+        const double t = piece.t_begin + share * along_road.point(p)[0];
+        const double weight = along_road.weight(p) * share * length;
+        const auto correction = fields.trace.correction(edge, piece, t);
+        const AngularShapes angular(lagrange, beta, t);
+        // b lambda
+        const double moment =
+            scene.outer_radius * fields.pressures[edge](t) + g[n - 1] * angular.mode;
+        if (fields.force)
+          fields.force->on_line_at(number, t, moments);
+        sums.add(on_line(angular, correction, fields.force ? moments.data() : nullptr), weight);
+        sums.bound_squared += 2 * weight * moment * correction.gap;
+      }
+    return sums;
+  }
+
   /// @param moments G_h at the radii of the cell; nullptr without force
-  LineIntegrals on_line(const AngularShapes& angular, const AdmissibleTrace::Correction& correction,
-                        const double* moments) {
+  Integrals on_line(const AngularShapes& angular, const AdmissibleTrace::Correction& correction,
+                    const double* moments) {
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -144,7 +129,7 @@ private:
       line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
     }
     const double correction_r = correction.value / height;
-    LineIntegrals sums;
+    Integrals sums;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
       double v_r = correction_r, v_z = correction.slope * (r - low[0]) / height;
@@ -168,17 +153,18 @@ private:
     return sums;
   }
 
-  const FieldVector& displacement;
-  const FieldVector& potential;
-  const AngularEnrichment& bubbles;
-  DualProblem& dual;
+  const RingSpace& space;
+  const Scene& scene;
+  const AdmissibleFields& fields;
+  RadialShapesOfMesh& shapes;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const Polynomials::Polynomial<double> beta;
-  double unseen_share = 0; ///< int beta L dt, L the orthonormal Legendre polynomial of degree + 1
+  const QGauss<1> rule, along_road;
+  std::vector<AngularShapes> lines; ///< of the rule
   LexicographicDofs dofs;
   std::vector<double> u, psi; ///< values at those of the cell
-  std::vector<double> g;      ///< of the bubbles
+  const double* g = nullptr;  ///< of the bubbles
   Point<2> low, high;
   double length = 0, height = 0;
   unsigned int number = 0; ///< of the active cell
@@ -187,59 +173,22 @@ private:
   std::vector<double> line_u, line_u_z, line_psi, line_psi_z, moments;
 };
 
-/// Over a cell with an edge on the surface, where v differs from u_h and the road's term is.
-LineIntegrals integrate_at_surface(Integrand& integrand, const Scene& scene,
-                                   const AdmissibleTrace& trace, unsigned int face,
-                                   const EdgePressure& pressure, const QGauss<1>& along_road) {
-  LineIntegrals sums;
-  for (const auto& piece : trace.pieces(face))
-    for (unsigned int p = 0; p < along_road.size(); ++p) {
-      const double share = piece.t_end - piece.t_begin;
-      const double t = piece.t_begin + share * along_road.point(p)[0];
-      const double weight = along_road.weight(p) * share * integrand.angular_length();
-      const auto correction = trace.correction(face, piece, t);
-      const AngularShapes angular = integrand.angular_shapes(t);
-      // b lambda
-      const double moment =
-          scene.outer_radius * pressure(t) + integrand.surface_bubble() * angular.mode;
-      sums.add(integrand.on_line(angular, correction), weight);
-      sums.bound_squared += 2 * weight * moment * correction.gap;
-    }
-  return sums;
-}
-
 } // namespace
 
-ConstitutiveError integrate_constitutive_error(
-    const RingSpace& space, const Scene& scene, const FieldVector& displacement,
-    const AdmissibleTrace& trace, const std::vector<EdgePressure>& pressures,
-    const FieldVector& potential, const AngularEnrichment& bubbles, DualProblem& dual) {
-  const unsigned int degree = space.dof_handler().get_fe().degree;
-  const QGauss<1> rule = angular_rule(scene, degree), along_road(degree + 6);
-  Integrand integrand(space, displacement, potential, bubbles, dual);
-  std::vector<AngularShapes> shapes;
-  for (const auto& point : rule.get_points())
-    shapes.push_back(integrand.angular_shapes(point[0]));
-
+ConstitutiveError integrate_constitutive_error(const RingSpace& space, const Scene& scene,
+                                               const AdmissibleFields& fields,
+                                               RadialShapesOfMesh& shapes) {
+  CellIntegrals integrals(space, scene, fields, shapes);
   std::vector<double> cell_bounds(space.dof_handler().get_triangulation().n_active_cells());
-  Sums total;
+  Integrals total;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
-    integrand.reinit(cell);
-    LineIntegrals sums;
-    if (const auto face = space.surface_face(cell))
-      sums = integrate_at_surface(integrand, scene, trace, *face, pressures[*face], along_road);
-    else {
-      for (unsigned int p = 0; p < rule.size(); ++p)
-        sums.add(integrand.on_line(shapes[p], p), rule.weight(p) * integrand.angular_length());
-      if (rule.size() == degree + 1)
-        sums.bound_squared += integrand.unseen_square();
-    }
+    const Integrals of_cell = integrals.over(cell);
     const unsigned int number = cell->active_cell_index();
-    cell_bounds[number] = std::sqrt(std::max(sums.bound_squared, 0.) +
-                                    (dual.force ? dual.force->cell_error_squared(number) : 0.));
-    total.add(sums, 1);
+    const double force_data = fields.force ? fields.force->cell_error_squared(number) : 0;
+    cell_bounds[number] = std::sqrt(std::max(double(of_cell.bound_squared), 0.) + force_data);
+    total.add(of_cell, 1);
   }
   std::vector<long double> sums = {total.bound_squared, total.norm_squared, total.work_of_force,
                                    total.work_of_correction};

@@ -3,7 +3,6 @@
 #include "rollwave/mesh/graded_quadrature.h"
 #include "rollwave/scene/scene.h"
 #include <algorithm>
-#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -11,96 +10,60 @@ namespace rollwave {
 
 using namespace dealii;
 
-namespace {
-
-/// P_0(x), ..., P_(n-1)(x)
-std::vector<double> legendre(unsigned int n, double x) {
-  std::vector<double> p(n);
-  for (unsigned int k = 0; k < n; ++k)
-    p[k] = boost::math::legendre_p(k, x);
-  return p;
-}
-
-} // namespace
-
 StressFunctionBasis::StressFunctionBasis(const Scene& scene, unsigned int degree, double begin,
                                          double end)
-    : scene(scene), degree(degree), begin(begin), end(end), length(1) {
-  length = primitives(end)[1];
+    : scene(scene), begin(begin), end(end), depth(1),
+      modes(Polynomials::Legendre::generate_complete_basis(degree - 1)), coefficients(degree + 1) {
+  depth = primitives(end)[1];
   const QGaussLobatto<1> nodes(degree + 1);
   FullMatrix<double> at_nodes(degree + 1);
   for (unsigned int k = 0; k <= degree; ++k) {
-    const std::vector<double> row =
+    const Vector<double> row =
         primitives(k == degree ? end : begin + nodes.point(k)[0] * (end - begin));
     for (unsigned int j = 0; j <= degree; ++j)
       at_nodes(j, k) = row[j];
   }
-  // sum_j c_ij primitive_j(r_k) = delta_ik
-  coefficients.reinit(degree + 1, degree + 1);
-  coefficients.invert(at_nodes);
+  coefficients.invert(at_nodes); // sum_j c_ij primitive_j(r_k) = delta_ik
 }
 
-std::vector<double> StressFunctionBasis::primitives(double r) const {
-  // 1, then int_begin^r rho alpha P_j(x(rho)) drho over the depth of the interval. The only
-  // singularity is at rho = 0, and the rule is exact to round-off. The integrand is of one sign but
-  // for P_j: no difference of depths is taken, which would cancel in thin layers at the surface and
-  // the critical speed.
-  std::vector<double> result(degree + 1, 0.);
+Vector<double> StressFunctionBasis::primitives(double r) const {
+  // 1, then int_begin^r rho alpha P_j drho over the depth of the interval. The only singularity is
+  // at rho = 0, and the rule is exact to round-off. The integrand is of one sign but for P_j: a
+  // difference of depths would cancel in thin layers at the surface and the critical speed.
+  Vector<double> result(modes.size() + 1);
   result[0] = 1;
   if (!(r > begin))
     return result;
   static const QGauss<1> gauss(16);
   const RadialRule rule = graded_rule(begin, r, gauss);
   for (unsigned int q = 0; q < rule.r.size(); ++q) {
-    const double rho = rule.r[q];
-    const double weight = rule.weight[q] * rho * scene.alpha(rho) / length;
-    const auto p = legendre(degree, 2 * (rho - begin) / (end - begin) - 1);
-    for (unsigned int j = 0; j < degree; ++j)
-      result[j + 1] += weight * p[j];
+    const double rho = rule.r[q], weight = rule.weight[q] * rho * scene.alpha(rho) / depth;
+    for (unsigned int j = 0; j < modes.size(); ++j)
+      result[j + 1] += weight * modes[j].value((rho - begin) / (end - begin));
   }
   return result;
 }
 
-std::vector<double> StressFunctionBasis::values(double r) const {
-  const std::vector<double> all = primitives(r);
-  std::vector<double> result(degree + 1, 0.);
-  for (unsigned int i = 0; i <= degree; ++i)
-    for (unsigned int j = 0; j <= degree; ++j)
-      result[i] += coefficients(i, j) * all[j];
+Vector<double> StressFunctionBasis::values(double r) const {
+  Vector<double> result(coefficients.m());
+  coefficients.vmult(result, primitives(r));
   return result;
 }
 
-std::vector<double> StressFunctionBasis::depth_derivatives(double r) const {
-  const auto p = legendre(degree, 2 * (r - begin) / (end - begin) - 1);
-  std::vector<double> result(degree + 1, 0.);
-  for (unsigned int i = 0; i <= degree; ++i)
-    for (unsigned int j = 0; j < degree; ++j)
-      result[i] -= coefficients(i, j + 1) * p[j] / length;
+Vector<double> StressFunctionBasis::depth_derivatives(double r) const {
+  Vector<double> of_primitives(coefficients.m()), result(coefficients.m());
+  for (unsigned int j = 0; j < modes.size(); ++j)
+    of_primitives[j + 1] = -modes[j].value((r - begin) / (end - begin)) / depth;
+  coefficients.vmult(result, of_primitives);
   return result;
 }
 
-namespace {
-
-/// How many points leave an error of about 1e-13 in integrals of polynomials of degree 2 @p degree
-/// over r. With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them
-/// whose half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths, and n points err by
-/// rho^(2 degree - 2 n). Fewer would not do: without contact the bound is an equality.
-unsigned int n_points(unsigned int degree, double ratio) {
-  const double q = std::min(ratio, 2.); // graded_rule() cuts longer intervals
-  const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
-  return degree + std::max(2., std::ceil(6.5 / std::log10(rho)));
-}
-
-} // namespace
-
-void RadialShapes::integrate_over_r(const double* w, std::vector<double>& integrals) const {
+void RadialShapes::integrate(const double* w, const std::vector<double>& weights,
+                             double RadialShape::*function, std::vector<double>& integrals) const {
   std::fill(integrals.begin(), integrals.end(), 0.);
-  for (unsigned int q = 0; q < r.size(); ++q) {
-    const double factor = w[q] * weight_over_r[q];
-    const RadialShape* const shapes_at = &shapes[integrals.size() * q];
+  for (unsigned int q = 0; q < r.size(); ++q)
     for (unsigned int i = 0; i < integrals.size(); ++i)
-      integrals[i] += factor * shapes_at[i].potential;
-  }
+      integrals[i] += w[q] * weights[q] * (shapes[integrals.size() * q + i].*function);
 }
 
 RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
@@ -111,7 +74,13 @@ const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
 }
 
 QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
-  return QGauss<1>(n_points(lagrange.size() - 1, end / begin));
+  // With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose
+  // half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths. For polynomials of degree 2 p
+  // over r, n points err by rho^(2 p - 2 n). Fewer would not do: without contact the bound is an
+  // equality.
+  const double q = std::min(end / begin, 2.); // graded_rule() cuts longer intervals
+  const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
+  return QGauss<1>(lagrange.size() - 1 + std::max(2., std::ceil(6.5 / std::log10(rho))));
 }
 
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
@@ -127,8 +96,8 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
     const double r = shapes.r[q];
     shapes.weight_over_r.push_back(shapes.weight[q] / r);
     shapes.alpha.push_back(scene.alpha(r));
-    const std::vector<double> values = potential_shapes.values(r);
-    const std::vector<double> derivatives = potential_shapes.depth_derivatives(r);
+    const Vector<double> values = potential_shapes.values(r);
+    const Vector<double> derivatives = potential_shapes.depth_derivatives(r);
     for (unsigned int i = 0; i < n; ++i) {
       lagrange[i].value((r - begin) / (end - begin), both);
       shapes.shapes.push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});

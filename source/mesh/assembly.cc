@@ -1,7 +1,5 @@
 #include "rollwave/mesh/assembly.h"
 
-#include "rollwave/base/errors.h"
-#include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/graded_quadrature.h"
 #include "rollwave/mesh/interval_map.h"
 #include "rollwave/mesh/lexicographic_dofs.h"
@@ -9,9 +7,6 @@
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/fe_values.h>
-
-#include <cmath>
 
 namespace rollwave {
 
@@ -68,38 +63,6 @@ RadialProducts stiffness_products(const RingSpace& space, const Scene& scene) {
              double begin, double end) mutable -> const ShapeProducts& {
     return known.at(begin, end, [&] { return integrate_products(scene, shapes, begin, end); });
   };
-}
-
-FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
-  const auto& element = space.dof_handler().get_fe();
-  FEValues<2> values(space.mapping(), element, QGauss<2>(element.degree + 1),
-                     update_values | update_quadrature_points | update_JxW_values);
-  Vector<double> cell_vector(element.n_dofs_per_cell());
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  FieldVector load = space.make_field();
-  std::string refusal;
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    values.reinit(cell);
-    cell_vector = 0;
-    for (const unsigned int q : values.quadrature_point_indices()) {
-      const double r = values.quadrature_point(q)[0],
-                   z = std::fmod(values.quadrature_point(q)[1], 2 * numbers::PI),
-                   f = scene.force(r, z);
-      if (!std::isfinite(f) && refusal.empty())
-        refusal = force_not_finite_at(scene, r, z);
-      for (const unsigned int i : values.dof_indices())
-        cell_vector(i) += r * f * values.shape_value(i, q) * values.JxW(q); // r dr dz is the area
-    }
-    cell->get_dof_indices(dofs);
-    space.constraints().distribute_local_to_global(cell_vector, dofs, load);
-  }
-  refusal = first_text(space.communicator(), refusal);
-  if (!refusal.empty())
-    throw BadValue("Cylinder", "Radial force", refusal);
-  load.compress(VectorOperation::add);
-  return load;
 }
 
 } // namespace rollwave

@@ -5,19 +5,24 @@
 
 namespace rollwave {
 
-RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points) {
+std::vector<double> graded_radii(double begin, double end) {
   const unsigned int n_pieces = std::max(1., std::ceil(std::log2(end / begin) - 1e-12));
+  std::vector<double> radii = {begin};
+  for (unsigned int piece = 1; piece < n_pieces; ++piece)
+    radii.push_back(begin * std::pow(end / begin, double(piece) / n_pieces));
+  radii.push_back(end);
+  return radii;
+}
+
+RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points) {
+  const std::vector<double> radii = graded_radii(begin, end);
   RadialRule rule;
-  double piece_begin = begin;
-  for (unsigned int piece = 1; piece <= n_pieces; ++piece) {
-    const double piece_end =
-        piece == n_pieces ? end : begin * std::pow(end / begin, double(piece) / n_pieces);
+  for (unsigned int piece = 0; piece + 1 < radii.size(); ++piece)
     for (unsigned int q = 0; q < points.size(); ++q) {
-      rule.r.push_back(piece_begin + (piece_end - piece_begin) * points.point(q)[0]);
-      rule.weight.push_back((piece_end - piece_begin) * points.weight(q));
+      const double length = radii[piece + 1] - radii[piece];
+      rule.r.push_back(radii[piece] + length * points.point(q)[0]);
+      rule.weight.push_back(length * points.weight(q));
     }
-    piece_begin = piece_end;
-  }
   return rule;
 }
 

@@ -122,6 +122,9 @@ void report_result(std::ostream& out, const Result& result) {
     out << "Certified  J(u) from " << std::setprecision(9) << certified.lower_bound << " to "
         << certified.upper_bound << ", error in the energy norm at most " << std::setprecision(3)
         << certified.energy_norm << ", relative " << certified.relative << '\n';
+    if (certified.sampled_width > 0)
+      out << "           for the force as sampled: strips narrower than " << certified.sampled_width
+          << " and spots smaller than a cell may be missed\n";
     if (result.load_bounds)
       out << "           G    from " << std::setprecision(9) << result.load_bounds->lower << " to "
           << result.load_bounds->upper << '\n';

@@ -72,6 +72,8 @@ void add_energy_and_errors(const Result& result, Json& json) {
     json["error"]["certified_energy_norm"] = result.certified->energy_norm;
     json["error"]["certified_relative"] =
         number_or_null(std::isfinite(result.certified->relative), result.certified->relative);
+    const double width = result.certified->sampled_width;
+    json["error"]["force_sampled_width"] = number_or_null(width > 0, width);
   }
   if (result.errors) {
     Json& error = json["error"];

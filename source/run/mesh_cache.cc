@@ -5,13 +5,11 @@
 
 namespace rollwave {
 
-DualProblem& MeshCache::dual_of(const Scene& scene, const RingSpace& space, Work& work) {
+StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space, Work& work) {
   const Work::Phase phase(work, "certificate");
-  if (dual && dual->angular_velocity == scene.angular_velocity)
-    dual->turn_to(space, scene);
-  else {
+  if (!dual || dual->angular_velocity() != scene.angular_velocity) {
     dual.reset(); // its memory is free before the next one needs it
-    dual = std::make_unique<DualProblem>(space, scene, stiffness.kind, work);
+    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, work);
   }
   return *dual;
 }

@@ -48,9 +48,8 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
     std::string remark = "the certified relative error is 1 or more, so that no digit is certified";
     if (options.mesh.wanted_relative_error == 0)
       remark += "; refine, or set Mesh/Wanted relative error";
-    if (scene.has_uneven_force())
-      remark += "; for a force that is not square integrable, such as 1/(r - 0.7), there is no "
-                "bound";
+    if (std::isinf(result.certified->force_data))
+      remark = "there is no bound: f^2 grows without end towards one place, as at a pole";
     remarks.push_back(remark);
   }
   constexpr unsigned int few_nodes = 2;

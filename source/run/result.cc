@@ -43,6 +43,7 @@ Result to_lengths(Result result, double unit) {
     certified->lower_bound *= square;
     certified->upper_bound *= square;
     certified->norm_squared *= square;
+    certified->sampled_width *= unit;
   }
   for (ContactPatch& patch : result.patch.patches) {
     patch.force *= unit;

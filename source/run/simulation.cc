@@ -66,8 +66,8 @@ void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   try {
     solution.certificate =
         certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-                solution.system.load, solution.system.dual_of(scene, *solution.space, result.work),
-                result.work);
+                solution.system.force.get(), solution.system.load,
+                solution.system.dual_of(scene, *solution.space, result.work), result.work);
   } catch (const NotSolved& failure) {
     result.shortfalls.push_back(
         left_out_text("the error could not be certified", failure, "Certificate/Error bound"));

@@ -2,7 +2,6 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/load_control.h"
-#include "rollwave/mesh/assembly.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/grid/tria.h>
@@ -96,13 +95,16 @@ void require_finite(double squared, const std::string& what) {
                            "radii, which must not be too close to each other either");
 }
 
-/// Makes the load of @p system that of the scene.
+/// Makes the force and the load of @p system those of the scene.
 void make_load(const Scene& scene, const RingSpace& space, MeshCache& system, Work& work) {
-  if (!scene.force)
+  if (!scene.force) {
+    system.force.reset();
     system.load.reset();
-  else if (!system.load || system.force_text != scene.force_text) {
+  } else if (!system.load || system.force_text != scene.force_text) {
     const Work::Phase phase(work, "assembly");
-    system.load = assemble_load(space, scene);
+    RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
+    system.force = std::make_unique<ForceIntegral>(space, scene, shapes);
+    system.load = assemble_load(space, *system.force, shapes);
     system.force_text = scene.force_text;
     ++work.load_assemblies;
   }

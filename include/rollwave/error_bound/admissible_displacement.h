@@ -63,10 +63,10 @@ private:
     std::vector<Piece> pieces;
   };
 
-  double discrete(const Edge& edge, double t) const;
-  double discrete_slope(const Edge& edge, double t) const;
-  double excess(const Edge& edge, double t) const;
-  double excess_slope(const Edge& edge, double t) const; ///< d/dz
+  struct ValueAndSlope {
+    double value, slope; ///< the latter by z
+  };
+  ValueAndSlope excess(const Edge& edge, double t) const; ///< u_h - phi
   void find_pieces(Edge& edge, double zone_begin, double zone_end) const;
 
   std::function<double(double)> road;

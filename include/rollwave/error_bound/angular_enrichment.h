@@ -1,13 +1,16 @@
 #ifndef ROLLWAVE_ERROR_BOUND_ANGULAR_ENRICHMENT_H
 #define ROLLWAVE_ERROR_BOUND_ANGULAR_ENRICHMENT_H
 
-#include "rollwave/error_bound/stress_function.h"
+#include "rollwave/error_bound/admissible_pressure.h"
+#include "rollwave/error_bound/force_integral.h"
+#include "rollwave/error_bound/radial_shapes.h"
+#include "rollwave/mesh/ring_space.h"
 
 #include <vector>
 
 namespace rollwave {
 
-struct EnrichmentColumns;
+struct Scene;
 
 /**
  * What enriches a potential psi of degree p (StressFunction) by one degree in z, and the contact
@@ -17,13 +20,12 @@ struct EnrichmentColumns;
  *     degree p on [0, 1],   t = (z - begin) / h_z,   g a combination of StressFunctionBasis,
  *
  * so that psi_z gains the mode g(r) P(t), which r u_r of a displacement of degree p has and psi_z
- * has not: without it the bound on cells that are long in z is several times the error. beta
- * vanishes at both ends and at the nodes. g is continuous between cells of the same length, zero
- * where their lengths differ, free on the hub, and b m on r = b, where the pressure becomes lambda
- * + m P.
+ * has not: without it the bound on cells that are long in z is several times the error.
  *
- * g and m maximise D(tau) with psi as it is and lambda + m P >= 0: a banded system for each
- * column of cells of one length, and conjugate gradients where processes share a column.
+ * beta vanishes at both ends, so that columns of cells of one length are independent of each other.
+ * g is continuous in a column, free on the hub, zero where the column ends inside of the ring, and
+ * b m on r = b, where the pressure becomes lambda + m P. g and m maximise D(tau) with psi as it is
+ * and lambda + m P >= 0.
  */
 class AngularEnrichment {
 public:
@@ -31,19 +33,27 @@ public:
   /// @param force nullptr when G is a function of r, which does no work with them
   AngularEnrichment(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
                     const FieldVector& potential, const std::vector<EdgePressure>& pressures,
-                    const ForceIntegral* force, const EnrichmentColumns& columns);
+                    const ForceIntegral* force);
 
-  /// g at the radial Gauss-Lobatto points of a cell with the degrees of freedom @p dofs, the radial
-  /// index running fastest.
-  void values(const std::vector<dealii::types::global_dof_index>& dofs,
-              std::vector<double>& g) const;
+  /// g at the radial Gauss-Lobatto points of an own cell.
+  const double* on_cell(unsigned int active_cell) const { return &values[n * active_cell]; }
 
   /// P for elements of a degree.
   static dealii::Polynomials::Polynomial<double> mode(unsigned int degree);
 
 private:
-  unsigned int n;    ///< degree + 1
-  FieldVector field; ///< g, at the first node of each cell's angular nodes that only it has
+  struct Cell;
+  using Column = std::vector<const Cell*>;
+  void assemble_loads(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
+                      const FieldVector& potential, const std::vector<EdgePressure>& pressures,
+                      const ForceIntegral* force);
+  void add_cells_of_others(const RingSpace& space, std::vector<Cell>& cells);
+  static std::vector<Column> columns_of(const std::vector<Cell>& cells);
+  void solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
+                    const std::vector<EdgePressure>& pressures, const Column& column);
+
+  unsigned int n;             ///< degree + 1
+  std::vector<double> values; ///< n for each active cell; the loads before the columns are solved
 };
 
 } // namespace rollwave

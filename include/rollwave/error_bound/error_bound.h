@@ -9,7 +9,8 @@
 namespace rollwave {
 
 struct Scene;
-struct DualProblem;
+class ForceIntegral;
+class StressFunction;
 class Work;
 
 /// Section `Certificate`.
@@ -18,14 +19,18 @@ struct CertificateOptions {
   bool load_bounds = false;
 };
 
-/// What a Certificate guarantees.
+/// What a Certificate guarantees; bounds are infinite where there is none.
 struct CertifiedError {
   double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
-  double force_data;   ///< its share delta for what the points miss of the force, see ForceIntegral
+  double force_data;   ///< its share delta for what G_h misses of the force, see ForceIntegral
   double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
   double lower_bound;  ///< of J(u)
   double upper_bound;  ///< of J(u), the energy J(v)
   double norm_squared; ///< a(v, v)
+
+  /// What a force that is an expression has of strips that are narrower may be missed, and of spots
+  /// smaller than a cell: a length, 0 without such a force.
+  double sampled_width;
 };
 
 /**
@@ -60,12 +65,14 @@ struct Certificate {
 };
 
 /// Certifies the solution @p contact with the displacement @p field.
-/// @param load that of the scene, nullopt without force
-/// @param dual of the same space and scene
+/// @param force that of the scene, nullptr without
+/// @param load of the same, nullopt without
+/// @param stress_function of the same space and speed
 /// @throws NotSolved when an iteration fails
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field,
-                    const std::optional<FieldVector>& load, DualProblem& dual, Work& work);
+                    const ForceIntegral* force, const std::optional<FieldVector>& load,
+                    StressFunction& stress_function, Work& work);
 
 } // namespace rollwave
 

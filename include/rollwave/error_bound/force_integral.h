@@ -1,9 +1,11 @@
 #ifndef ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
 #define ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
 
+#include "rollwave/error_bound/force_scan.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
 
+#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <cstddef>
@@ -13,29 +15,28 @@ namespace rollwave {
 
 struct Scene;
 
-/// The rule along z by which the error bound integrates over a cell: Gauss' rule with degree + 1
-/// points or, for a force that is an expression, with two more, since G_h is of a higher degree.
+/// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
+/// degree + 2 points or, for a force that is an expression, one more, G_h being of a higher degree.
 dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
 
 /**
- * The integral of a force f from the surface inwards,
+ * All that load and error bound know of a force f, its integral from the surface inwards,
  *
  *     G(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int G w_r dr dz   for w = 0 on r = a,
  *
- * in place of which the error bound takes a G_h. For a force that is a number, G_h = G = f (b^2 -
- * r^2)/2. For an expression G_h is, on each cell, the polynomial that equals G at the points of
- * angular_rule() along z and of RadialShapes along r; G there is a sum of Gauss' rules over the
- * radii of the whole mesh, on each line z = const of its own.
+ * in place of which they take a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For
+ * an expression G_h is, on each cell, the polynomial that equals G at the points of angular_rule()
+ * along z and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
+ * whole mesh, on each line z = const of its own.
  *
  * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
  *
  *     delta = (int (G - G_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
  *
- * delta is judged by what the points have seen: by the highest coefficients of G_h in both
- * directions and by a second G on the two ends of the angular interval of each cell, whose rules
- * along r include the ends of the intervals; its difference from G_h and the highest modes of f on
- * its way are added. A jump of f along z in a cell makes delta about h^(1/2); on a line of the mesh
- * it costs nothing.
+ * delta is measured by a ForceScan with 32 points to a cell: for each angular interval of cells
+ * one line along r and, for each of its cells, one along z. Their differences from G_h are charged
+ * twice, since a jump may lie anywhere between two points. A strip that is narrower than the
+ * points are apart may be missed, and so may a spot smaller than a cell.
  */
 class ForceIntegral {
 public:
@@ -46,36 +47,53 @@ public:
   /// angular_rule() of the scene.
   const dealii::QGauss<1>& rule() const { return angular; }
 
-  /// G_h of an own cell on the line number @p p of angular_rule(), at the radii of its
-  /// RadialShapes.
+  /// Whether G is a function of r alone, which does no work on periodic potentials.
+  bool is_number() const { return number; }
+
+  /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
   const double* on_line(unsigned int cell, unsigned int p) const {
-    return &values[first[cell] + (is_number ? 0 : p * n_radii[cell])];
+    return &values[first[cell] + (number ? 0 : p * n_radii[cell])];
   }
 
   /// The same at the share @p t of the cell's angular interval.
   void on_line_at(unsigned int cell, double t, std::vector<double>& line) const;
 
-  /// delta, of the cells of all processes; 0 for a number.
+  enum class LoadKind {
+    displacement, ///< int G_h d_r phi_i dr dz
+    potential     ///< int G_h d_z psi_i / r dr dz
+  };
+  void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, LoadKind kind,
+                const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
+
+  /// delta, of the cells of all processes. 0 for a number; infinite where the squares of f weigh
+  /// the more, the closer its largest value is looked at, as at a pole.
   double error() const { return delta; }
 
-  /// The share of an active cell in delta^2.
-  double cell_error_squared(unsigned int cell) const {
-    return is_number ? 0 : errors_squared[cell];
-  }
+  /// The share of an active cell in delta^2; finite.
+  double cell_error_squared(unsigned int cell) const { return number ? 0 : errors_squared[cell]; }
+
+  /// The largest distance of the points of the scan, a length; 0 for a number.
+  double scan_width() const { return width; }
 
 private:
-  void integrate_number(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
-  void integrate_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
+  void take_number(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
+  void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
+  void conclude(const RingSpace& space, const ForceScan& scan, double sum,
+                dealii::Point<2> largest_cell);
 
-  const bool is_number;
+  const bool number;
   const dealii::QGauss<1> angular;
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
-  std::vector<double> values;        ///< of a cell: all radii on the first line, then on the next
-  std::vector<std::size_t> first;    ///< of each active cell, among the values
-  std::vector<unsigned int> n_radii; ///< likewise
-  std::vector<double> errors_squared;
-  double delta = 0;
+  std::vector<double> values;         ///< of a cell: all radii on the first line, then on the next
+  std::vector<std::size_t> first;     ///< of each active cell, among the values
+  std::vector<unsigned int> n_radii;  ///< likewise
+  std::vector<double> errors_squared; ///< of each active cell; empty for a number
+  double delta = 0, width = 0;
 };
+
+/// The load of G_h on displacements, with the constraints of the space applied.
+FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
+                          RadialShapesOfMesh& shapes);
 
 } // namespace rollwave
 

@@ -9,6 +9,7 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <vector>
 
@@ -31,18 +32,16 @@ class StressFunctionBasis {
 public:
   StressFunctionBasis(const Scene& scene, unsigned int degree, double begin, double end);
 
-  std::vector<double> values(double r) const;
-  std::vector<double> depth_derivatives(double r) const; ///< d/ds
-
-  /// s(begin) - s(end)
-  double depth() const { return length; }
+  dealii::Vector<double> values(double r) const;
+  dealii::Vector<double> depth_derivatives(double r) const; ///< d/ds
 
 private:
-  std::vector<double> primitives(double r) const;
+  dealii::Vector<double> primitives(double r) const;
 
   const Scene& scene;
-  unsigned int degree;
-  double begin, end, length;
+  double begin, end;
+  double depth;                                               ///< s(begin) - s(end)
+  std::vector<dealii::Polynomials::Polynomial<double>> modes; ///< Legendre's, on [0, 1]
   dealii::FullMatrix<double> coefficients; ///< (i, j) of shape i over primitive j
 };
 
@@ -69,8 +68,9 @@ struct RadialShapes {
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;
 
-  /// int w psi_i / r dr, psi_i the potential's shape functions, by the rule, for w at its points.
-  void integrate_over_r(const double* w, std::vector<double>& integrals) const;
+  /// int w X_i, X_i one of the functions of each shape, by @p weights, for w at the points.
+  void integrate(const double* w, const std::vector<double>& weights, double RadialShape::*function,
+                 std::vector<double>& integrals) const;
 };
 
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.

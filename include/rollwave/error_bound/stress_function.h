@@ -34,39 +34,27 @@ public:
   /// Makes the matrix, which depends on the speed of the scene alone, and prepares to solve with
   /// it.
   /// @param kind that of make_spd_solver()
-  /// @param shapes those of the mesh and the scene
   /// @throws NotSolved when memory is short
-  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
-                 RadialShapesOfMesh& shapes, Work& work);
+  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind, Work& work);
 
-  /// The nodal values of psi, both sides of the seam having their own, for the matrix' speed.
-  /// @param constraints those of stress_function_constraints() for the scene
+  /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
+  /// @param pressures one for each of RingSpace::surface_faces()
   /// @param force nullptr when G is a function of r, which does no work: int psi_z dz = 0 for every
   /// periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
-  FieldVector solve(RadialShapesOfMesh& shapes,
-                    const dealii::AffineConstraints<double>& constraints,
+  FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
                     const ForceIntegral* force, Work& work);
 
-private:
-  /// Adds what the values prescribed in @p lift contribute to the right-hand side.
-  void add_load_of(const FieldVector& lift, RadialShapesOfMesh& shapes,
-                   const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
-  /// Adds int G psi_z / r dr dz.
-  void add_load_of(const ForceIntegral& force, RadialShapesOfMesh& shapes,
-                   const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
+  double angular_velocity() const { return speed; }
 
+  RadialShapesOfMesh& shapes() { return radial; }
+
+private:
   const RingSpace& space;
-  const ShapeProducts reference;
+  const double speed;
+  RadialShapesOfMesh radial;
   std::unique_ptr<SpdSolver> solver;
 };
-
-/// What ties the nodal values of a potential: given on r = b by the pressures, growing in a period,
-/// continuous elsewhere.
-/// @param pressures one for each of RingSpace::surface_faces(); for degree 1 with zero slopes
-dealii::AffineConstraints<double>
-stress_function_constraints(const RingSpace& space, const Scene& scene,
-                            const std::vector<EdgePressure>& pressures);
 
 } // namespace rollwave
 

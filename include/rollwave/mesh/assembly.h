@@ -42,11 +42,6 @@ void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
  */
 RadialProducts stiffness_products(const RingSpace& space, const Scene& scene);
 
-/// f_i = int r f phi_i dr dz by Gauss' rule with degree + 1 points in each direction, with the
-/// constraints applied; the scene must have a force.
-/// @throws BadInput where f is not finite.
-FieldVector assemble_load(const RingSpace& space, const Scene& scene);
-
 } // namespace rollwave
 
 #endif

@@ -13,8 +13,11 @@ struct RadialRule {
   std::vector<double> weight;
 };
 
-/// @p points on each of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut
-/// into: the integrands are smooth but for a pole at r = 0.
+/// The ends of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut into for
+/// integrands that are smooth but for a pole at r = 0.
+std::vector<double> graded_radii(double begin, double end);
+
+/// @p points on each of these pieces.
 RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points);
 
 } // namespace rollwave

@@ -1,7 +1,8 @@
 #ifndef ROLLWAVE_RUN_MESH_CACHE_H
 #define ROLLWAVE_RUN_MESH_CACHE_H
 
-#include "rollwave/error_bound/dual_problem.h"
+#include "rollwave/error_bound/force_integral.h"
+#include "rollwave/error_bound/stress_function.h"
 #include "rollwave/solver/choose_solver.h"
 
 #include <memory>
@@ -14,12 +15,13 @@ namespace rollwave {
 /// scene at the cost of what differs.
 struct MeshCache {
   SolverChoice stiffness; ///< its kind outlives the solver
-  std::unique_ptr<DualProblem> dual;
-  std::optional<FieldVector> load; ///< of assemble_load(), nullopt without force
-  std::string force_text;          ///< of the scene that the load belongs to
+  std::unique_ptr<StressFunction> dual;
+  std::unique_ptr<ForceIntegral> force; ///< nullptr without force
+  std::optional<FieldVector> load;      ///< of the same
+  std::string force_text;               ///< of the scene that force and load belong to
 
-  /// Makes the dual problem that of a scene. @throws as DualProblem
-  DualProblem& dual_of(const Scene& scene, const RingSpace& space, Work& work);
+  /// Makes the dual problem that of a scene. @throws as StressFunction
+  StressFunction& dual_of(const Scene& scene, const RingSpace& space, Work& work);
 };
 
 } // namespace rollwave

@@ -35,7 +35,7 @@ public:
   virtual ~ContactLinearSolver() = default;
 
   /// Turns to a scene, which may differ from the one before in its speed, force and road: only what
-  /// depends on what has changed is computed again. @p load is the vector of assemble_load(),
+  /// depends on what has changed is computed again. @p load is the vector of the force,
   /// nullopt when it is zero; it and @p work must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
   virtual void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) = 0;
