@@ -12,7 +12,7 @@ using namespace dealii;
 
 std::vector<int> number_unknowns(const RingSpace& space, const Scene& scene) {
   std::vector<std::pair<double, types::global_dof_index>> contact;
-  for (const SurfaceNode& node : space.contact_nodes())
+  for (const SurfaceNode& node : space.candidate_nodes())
     contact.emplace_back(-scene.road(node.angle), node.dof);
   std::stable_sort(contact.begin(), contact.end(),
                    [](const auto& left, const auto& right) { return left.first < right.first; });

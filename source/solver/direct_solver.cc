@@ -14,23 +14,22 @@ using namespace dealii;
 void DirectSolver::number_unknowns(const Scene& scene) {
   const Work::Phase phase(*work, "ordering");
   unknown_of_dof = rollwave::number_unknowns(space, scene);
-  const unsigned int first_contact_unknown = space.n_unknowns() - space.contact_nodes().size();
-  places.clear();
-  for (const SurfaceNode& node : space.contact_nodes())
-    places.push_back(unknown_of_dof[node.dof] - first_contact_unknown);
 }
 
 void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) {
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
+  places.clear();
+  for (const SurfaceNode& node : space.contact_nodes())
+    places.push_back(unknown_of_dof[node.dof] - (space.n_unknowns() - schur->size()));
 
   const Work::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
   this->load = load;
-  const unsigned int m = places.size();
+  const unsigned int m = schur->size();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
@@ -45,7 +44,7 @@ void DirectSolver::factorise(const Scene& scene) {
   const bool is_first = !cholesky; // later factors take the place of the one before
   if (is_first)
     number_unknowns(scene);
-  const unsigned int m = places.size();
+  const unsigned int m = space.candidate_nodes().size();
   angular_velocity.reset(); // until the factor is there
   is_reduced = false;
   schur.reset();
@@ -74,7 +73,7 @@ void DirectSolver::factorise(const Scene& scene) {
 }
 
 Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
-  Vector<double> values(places.size());
+  Vector<double> values(schur->size());
   for (unsigned int i = 0; i < places.size(); ++i)
     values(places[i]) = contact_values(i);
   return values;
@@ -93,7 +92,7 @@ Vector<double> DirectSolver::response(const Vector<double>& force, double /*accu
 
 double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
-  std::vector<bool> is_pinned(places.size());
+  std::vector<bool> is_pinned(schur->size());
   for (unsigned int i = 0; i < places.size(); ++i)
     is_pinned[places[i]] = pinned[i];
   Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
@@ -108,8 +107,14 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(*work, "back-substitution");
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
+  // The candidates that are no contact nodes are free.
+  Vector<double> displacement = to_places(state.displacement), force(schur->size());
+  std::vector<bool> is_pinned(schur->size());
+  for (const unsigned int place : places)
+    is_pinned[place] = true;
+  schur->solve(is_pinned, contact_load, displacement, force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
-  const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
+  const Vector<double> trailing = schur->transposed_multiply(displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
   return scatter(cholesky->backward(std::move(rhs)));

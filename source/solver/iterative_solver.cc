@@ -15,7 +15,7 @@ using namespace dealii;
 IterativeSolver::IterativeSolver(const RingSpace& space)
     : space(space), system(space), contact_dofs(space.dof_handler().n_dofs()),
       pinned_dofs(contact_dofs), multigrid_dofs(contact_dofs), field(space.make_field()) {
-  for (const SurfaceNode& node : space.contact_nodes())
+  for (const SurfaceNode& node : space.candidate_nodes())
     contact_dofs.add_index(node.dof);
   contact_dofs.compress();
 }

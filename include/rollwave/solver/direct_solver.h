@@ -11,8 +11,8 @@
 namespace rollwave {
 
 /**
- * The direct kind: one sparse Cholesky factorisation of K with the contact nodes last. The problem
- * on the contact nodes is then dense and small,
+ * The direct kind: one sparse Cholesky factorisation of K with the contact nodes (the candidates)
+ * last. The problem on the contact nodes is then dense and small,
  *
  *     S u_c = g - N_c,   S = L_cc L_cc^T,   g = f_c - K_ci K_ii^-1 f_i = L_cc (L^-1 f)_c,
  *
@@ -45,7 +45,8 @@ private:
   /// The number of each degree of freedom among the unknowns, contact nodes last; -1 if
   /// constrained.
   std::vector<int> unknown_of_dof;
-  std::vector<unsigned int> places;       ///< of the contact nodes among the last unknowns
+  std::vector<unsigned int>
+      places; ///< of the contact nodes among the candidates, the last unknowns
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   std::unique_ptr<CholmodFactor> cholesky;
   std::unique_ptr<DenseSchur> schur;
