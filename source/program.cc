@@ -1,11 +1,13 @@
 #include "rollwave/program.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/version.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
+#include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
 #include "rollwave/study/study_table.h"
 #include "rollwave/verify/reference_solution.h"
@@ -19,20 +21,20 @@ namespace rollwave {
 
 namespace {
 
-void make_study(const Parameters& parameters, const std::filesystem::path& directory,
-                const Processes& processes, std::ostream& out) {
+void make_study(const Parameters& parameters, const Processes& processes, std::ostream& out) {
+  out << version_text() << "\n\n";
+  const std::filesystem::path directory = parameters.output.directory;
   const Study study = run_study(parameters, directory, out, processes.communicator());
   if (processes.is_first()) {
-    out << '\n';
-    print_study(out, study.runs);
-    report_files(out, write_study(directory, parameters, study.runs));
+    print_study_notes(out, study);
+    report_files(out, write_study(directory, parameters, study));
   }
   processes.wait_for_first();
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
   if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
-                                           [](const StudyRun& run) { return run.is_solved(); }))
-    throw NotSolved("no run of the study was solved; the first: " + study.runs.front().failure);
+                                           [](const auto& run) { return run->is_solved(); }))
+    throw NotSolved("no run of the study was solved; the first: " + study.runs.front()->failure);
 }
 
 /// Adds the errors to the result, where the exact solution is known.
@@ -50,9 +52,14 @@ void verify(Solution& solution, std::ostream& out) {
            "thickness of the ring.\n";
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters,
-                 const std::filesystem::path& directory, const Processes& processes, bool verifies,
+void solve_scene(const Parameters& parameters, const Processes& processes, bool verifies,
                  std::ostream& out) {
+  const Scene scene = make_scene(parameters);
+  const auto directory = prepare_directory(parameters, processes.communicator());
+  report_scene(out, scene, parameters);
+  if (parameters.study.true_errors)
+    out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
+           "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, processes.communicator());
   report_result(out, to_lengths(solution.result, scene.unit));
   if (verifies)
@@ -72,13 +79,10 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
   try {
-    const Scene scene = make_scene(parameters);
-    const auto directory = prepare_directory(parameters, processes.communicator());
-    report_scene(out, scene, parameters);
     if (is_study)
-      make_study(parameters, directory, processes, out);
+      make_study(parameters, processes, out);
     else
-      solve_scene(scene, parameters, directory, processes, line.verify, out);
+      solve_scene(parameters, processes, line.verify, out);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

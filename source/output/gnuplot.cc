@@ -44,7 +44,7 @@ private:
 Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
   const TemporaryFile file;
   if (file.write("set terminal svg noenhanced size " + std::to_string(width) + "," +
-                 std::to_string(height) + " font 'Helvetica,14' background rgb 'white' dynamic\n" +
+                 std::to_string(height) + " font 'Helvetica,14' background rgb 'white' fixed\n" +
                  script))
     // An interrupt is for this program, which still wants the picture of what it has.
     pipe.reset(

@@ -202,8 +202,10 @@ void declare_study(Declarations& keys, Parameters& p) {
       "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest. At most 20 keys, each once and none of Study and Output, in at most 100000 "
-      "combinations.");
+      "varies fastest. A value may be a range, first : last : step or first : last / number, as in "
+      "\"Road/Distance = 0.6 : 0.9 : 0.05\". Keys joined by & move together, as in \"Mesh/Radial "
+      "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". At most 20 keys, each once and none of "
+      "Study and Output, in at most 100000 combinations.");
   keys.add(
       "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
@@ -215,9 +217,16 @@ void declare_study(Declarations& keys, Parameters& p) {
       "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
       "separated by commas, - where none is known.");
   keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
-                        "\"true\" or \"false\": whether to compare every run with the exact "
-                        "solution of its scene; where none is known, the certified error is all "
+                        "\"true\" or \"false\": whether to compare every run of a study with the "
+                        "exact solution of its scene, and to time it in full; where none is known, "
+                        "the certified error is all "
                         "there is.");
+  keys.add(
+      "Files of each run", "",
+      [&p](const std::string& text) { p.study.files_of_each_run = parse_files(text); },
+      "The files to write for each run of a study, any of those of Output/Files, into run-001, "
+      "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
+      "all fields for ParaView.");
   keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
                  "Under MPI with a number greater than 0, as many processes make a run and several "
                  "runs are made at the same time; one process hands them out. 0: all processes "
@@ -286,9 +295,10 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings) {
     const std::string origin = setting.origin + ", " + setting.path();
     if (setting.path() == "Study/Vary")
-      for (auto& values : parameters.study.vary)
-        for (Setting& value : values)
-          value.origin = origin;
+      for (Variation& variation : parameters.study.vary)
+        for (auto& choice : variation)
+          for (Setting& value : choice)
+            value.origin = origin;
     if (setting.path() == "Study/Scenes")
       for (auto& scene : parameters.study.scenes)
         for (Setting& value : scene.settings)

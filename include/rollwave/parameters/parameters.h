@@ -21,7 +21,9 @@ enum class OutputFile { summary, contact, parameters, solution, plot };
  * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
  */
 struct Parameters : RunOptions {
-  StudyOptions study;
+  struct : StudyOptions {
+    std::vector<OutputFile> files_of_each_run;
+  } study;
 
   struct {
     std::string directory = "output";

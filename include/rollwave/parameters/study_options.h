@@ -15,19 +15,21 @@ struct NamedScene {
   std::vector<Setting> settings;
 };
 
+/// The choices for a key, or for keys that move together: one setting for each key.
+using Variation = std::vector<std::vector<Setting>>;
+
 /// Section `Study`.
 struct StudyOptions {
   std::vector<NamedScene> scenes; ///< none: the scene of the file
 
-  /// One list of settings for each varied key; the study runs every combination.
-  std::vector<std::vector<Setting>> vary;
+  std::vector<Variation> vary; ///< the study runs every combination
   std::vector<std::optional<unsigned int>> published_steps;
   bool true_errors = false;
   unsigned int processes_per_scene = 0; ///< 0: all of them
 };
 
-/// `Study/Vary`: one list of settings for each key. @throws std::invalid_argument, BadInput
-std::vector<std::vector<Setting>> parse_vary(const std::string& text);
+/// `Study/Vary`. @throws std::invalid_argument, BadInput
+std::vector<Variation> parse_vary(const std::string& text);
 
 /// `Study/Scenes`. @throws std::invalid_argument, BadInput
 std::vector<NamedScene> parse_scenes(const std::string& text);
