@@ -23,24 +23,6 @@ std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
   return std::pair(to_number(ends[0]), to_number(ends[1]));
 }
 
-const std::map<std::string, OutputFile> output_files = {{"summary", OutputFile::summary},
-                                                        {"contact", OutputFile::contact},
-                                                        {"parameters", OutputFile::parameters},
-                                                        {"solution", OutputFile::solution},
-                                                        {"plot", OutputFile::plot}};
-
-std::vector<OutputFile> parse_files(const std::string& text) {
-  std::vector<OutputFile> files;
-  for (const std::string& name : split(text, ',')) {
-    if (name == "mesh")
-      throw BadInput(
-          "the file kind \"mesh\" is gone: see the cells in solution.vtu with ParaView's "
-          "\"Surface With Edges\"");
-    files.push_back(output_files.at(name));
-  }
-  return files;
-}
-
 /// Bounds of numbers that have no other.
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double huge = std::numeric_limits<double>::max();
@@ -196,44 +178,6 @@ void declare_solver(Declarations& keys, Parameters& p) {
   keys.leave();
 }
 
-void declare_study(Declarations& keys, Parameters& p) {
-  keys.enter("Study");
-  keys.add(
-      "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
-      "Empty for a single scene, otherwise the keys to vary and their values, as in "
-      "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest. A value may be a range, first : last : step or first : last / number, as in "
-      "\"Road/Distance = 0.6 : 0.9 : 0.05\". Keys joined by & move together, as in \"Mesh/Radial "
-      "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". At most 20 keys, each once and none of "
-      "Study and Output, in at most 100000 combinations.");
-  keys.add(
-      "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
-      "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
-      "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
-      "Mesh/Radial cells = 8\". Every scene is run with every combination of Vary.");
-  keys.add(
-      "Published steps", "",
-      [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },
-      "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
-      "separated by commas, - where none is known.");
-  keys.add_choice<bool>("True errors", p.study.true_errors, {{"false", false}, {"true", true}},
-                        "\"true\" or \"false\": whether to compare every run of a study with the "
-                        "exact solution of its scene, and to time it in full; where none is known, "
-                        "the certified error is all "
-                        "there is.");
-  keys.add(
-      "Files of each run", "",
-      [&p](const std::string& text) { p.study.files_of_each_run = parse_files(text); },
-      "The files to write for each run of a study, any of those of Output/Files, into run-001, "
-      "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
-      "all fields for ParaView.");
-  keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
-                 "Under MPI with a number greater than 0, as many processes make a run and several "
-                 "runs are made at the same time; one process hands them out. 0: all processes "
-                 "make each run together.");
-  keys.leave();
-}
-
 void declare_output(Declarations& keys, Parameters& p) {
   keys.enter("Output");
   keys.add_text("Directory", p.output.directory, "The directory of the files, made when missing.");
@@ -253,7 +197,7 @@ void declare(Declarations& keys, Parameters& p) {
   declare_certificate(keys, p);
   declare_contact(keys, p);
   declare_solver(keys, p);
-  declare_study(keys, p);
+  declare_study(keys, p.study);
   declare_output(keys, p);
 
   keys.refuse("Study", "Continue meshes", "adaptive runs begin anew; leave the key out");

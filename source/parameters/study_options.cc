@@ -1,9 +1,11 @@
 #include "rollwave/parameters/study_options.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/parameters/declarations.h"
 
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -86,8 +88,6 @@ void require_key_of_a_scene(const Setting& setting, const std::string& what) {
         (setting.section == "Output" ? "; Study/Files of each run writes files of each run" : ""));
 }
 
-} // namespace
-
 std::vector<Variation> parse_vary(const std::string& text) {
   std::vector<Variation> vary;
   std::set<std::string> keys;
@@ -129,6 +129,47 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
     else
       counts.emplace_back(to_count(part, 1, 1000000000));
   return counts;
+}
+
+} // namespace
+
+void declare_study(Declarations& keys, StudyOptions& study) {
+  keys.enter("Study");
+  keys.add(
+      "Vary", "", [&study](const std::string& text) { study.vary = parse_vary(text); },
+      "Empty for a single scene, otherwise the keys to vary and their values, as in "
+      "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
+      "varies fastest. A value may be a range, first : last : step or first : last / number, as in "
+      "\"Road/Distance = 0.6 : 0.9 : 0.05\". Keys joined by & move together, as in \"Mesh/Radial "
+      "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". At most 20 keys, each once and none of "
+      "Study and Output, in at most 100000 combinations.");
+  keys.add(
+      "Scenes", "", [&study](const std::string& text) { study.scenes = parse_scenes(text); },
+      "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
+      "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
+      "Mesh/Radial cells = 8\". Every scene is run with every combination of Vary.");
+  keys.add(
+      "Published steps", "",
+      [&study](const std::string& text) { study.published_steps = parse_counts(text); },
+      "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
+      "separated by commas, - where none is known.");
+  keys.add_choice<bool>("True errors", study.true_errors, {{"false", false}, {"true", true}},
+                        "\"true\" or \"false\": whether to compare every run of a study with the "
+                        "exact solution of its scene, and to time it in full; where none is known, "
+                        "the certified error is all "
+                        "there is.");
+  keys.add(
+      "Files of each run", "",
+      [&study](const std::string& text) { study.files_of_each_run = parse_files(text); },
+      "The files to write for each run of a study, any of those of Output/Files, into run-001, "
+      "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
+      "all fields for ParaView.");
+  keys.add_count("Processes per scene", study.processes_per_scene, 0,
+                 std::numeric_limits<int>::max(),
+                 "Under MPI with a number greater than 0, as many processes make a run and several "
+                 "runs are made at the same time; one process hands them out. 0: all processes "
+                 "make each run together.");
+  keys.leave();
 }
 
 } // namespace rollwave

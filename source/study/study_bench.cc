@@ -128,7 +128,7 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
   if (!run.shared.empty() && result.work.stiffness_assemblies == 0)
     run.shared = "mesh and matrices";
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(plan, scene)) {
+    if (const auto& exact = exact_solution(plan, solution->scene)) {
       result.errors = measure_true_errors(*solution->space, solution->displacement, result,
                                           solution->certificate, *exact);
       run.reference = "the semi-analytic solution";
@@ -139,7 +139,7 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
   if (!run.files.empty()) {
     Parameters parameters = plan.parameters;
     parameters.output.files = study.study.files_of_each_run;
-    write_results(directory / run.files, scene, parameters, *solution);
+    write_results(directory / run.files, solution->scene, parameters, *solution);
   }
   const Result own = to_lengths(result, scene.unit);
   run.figures = figures_of(own);
@@ -150,8 +150,9 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
 
 const std::optional<ExactSolution>& StudyBench::exact_solution(const RunPlan& plan,
                                                                const Scene& scene) {
-  const auto key =
-      std::pair(part_of(plan, {"Cylinder", "Road"}), std::pair(scene.zone_begin, scene.zone_end));
+  const std::pair key(
+      part_of(plan, {"Cylinder", "Road"}),
+      std::array<double, 3>{{scene.zone_begin, scene.zone_end, scene.road_distance}});
   const auto known = exact_solutions.find(key);
   return known != exact_solutions.end()
              ? known->second

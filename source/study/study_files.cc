@@ -61,7 +61,12 @@ std::string title_of(const Study& study) {
     add("Cylinder/Outer radius", "b = ", p.cylinder.outer_radius);
     add("Cylinder/Angular velocity", "ω = ", p.cylinder.angular_velocity);
     add("Cylinder/Radial force", "f = ", p.cylinder.radial_force);
-    add("Road/Distance", "c = ", p.road.distance);
+    if (p.road.load)
+      add("Road/Load", "L = ", *p.road.load);
+    else
+      add("Road/Distance", "c = ", p.road.distance);
+    if (p.road.curvature != 0)
+      add("Road/Curvature", "κ = ", p.road.curvature);
     add("Mesh/Degree", "degree ", p.mesh.degree);
   }
   add("Contact/Method", "",

@@ -69,6 +69,8 @@ const std::map<std::string, Words> words_of_keys = {
     {"Cylinder/Angular velocity", {"angular velocity", "ω"}},
     {"Cylinder/Radial force", {"radial force", "f"}},
     {"Road/Distance", {"road distance", "c"}},
+    {"Road/Load", {"load", "L"}},
+    {"Road/Curvature", {"curvature of the road", "κ"}},
     {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
     {"Contact/Rho", {"step length", "ρ"}}};
 

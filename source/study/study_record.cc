@@ -73,6 +73,7 @@ std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
       {"cycles", result.cycles.size()},
       {"contact_steps", result.history.size()},
       {"linear_iterations", result.work.linear_iterations},
+      {"road_distance", result.road_distance},
       {"force", patch.force},
       {"energy", result.energy.value},
       {"half_width", patch.half_width()},

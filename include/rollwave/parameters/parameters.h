@@ -2,6 +2,7 @@
 #define ROLLWAVE_PARAMETERS_PARAMETERS_H
 
 #include "rollwave/base/errors.h"
+#include "rollwave/parameters/output_options.h"
 #include "rollwave/parameters/prm_reader.h"
 #include "rollwave/parameters/study_options.h"
 #include "rollwave/run/run_options.h"
@@ -14,21 +15,14 @@
 
 namespace rollwave {
 
-enum class OutputFile { summary, contact, parameters, solution, plot };
-
 /**
  * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
  * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
  */
 struct Parameters : RunOptions {
-  struct : StudyOptions {
-    std::vector<OutputFile> files_of_each_run;
-  } study;
+  StudyOptions study;
 
-  struct {
-    std::string directory = "output";
-    std::vector<OutputFile> files;
-  } output;
+  OutputOptions output;
 
   /// What was set, in order of increasing precedence; later entries override earlier ones.
   std::vector<Setting> settings;

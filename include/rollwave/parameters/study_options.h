@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 #define ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 
+#include "rollwave/parameters/output_options.h"
 #include "rollwave/parameters/prm_reader.h"
 
 #include <optional>
@@ -8,6 +9,8 @@
 #include <vector>
 
 namespace rollwave {
+
+class Declarations;
 
 /// A scene of a study by its name, with the settings that make it.
 struct NamedScene {
@@ -25,17 +28,12 @@ struct StudyOptions {
   std::vector<Variation> vary; ///< the study runs every combination
   std::vector<std::optional<unsigned int>> published_steps;
   bool true_errors = false;
+  std::vector<OutputFile> files_of_each_run;
   unsigned int processes_per_scene = 0; ///< 0: all of them
 };
 
-/// `Study/Vary`. @throws std::invalid_argument, BadInput
-std::vector<Variation> parse_vary(const std::string& text);
-
-/// `Study/Scenes`. @throws std::invalid_argument, BadInput
-std::vector<NamedScene> parse_scenes(const std::string& text);
-
-/// `Study/Published steps`, nullopt for "-". @throws std::invalid_argument
-std::vector<std::optional<unsigned int>> parse_counts(const std::string& text);
+/// The keys of the section.
+void declare_study(Declarations& keys, StudyOptions& study);
 
 } // namespace rollwave
 

@@ -7,6 +7,7 @@
 
 #include <mpi.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -45,8 +46,8 @@ private:
   std::map<MeshKey, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
   std::optional<MeshKey> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;
-  std::map<std::pair<MeshKey, std::pair<double, double>>, std::optional<ExactSolution>>
-      exact_solutions; ///< by all but the mesh, and the zone
+  /// By all but the mesh, and by zone and distance.
+  std::map<std::pair<MeshKey, std::array<double, 3>>, std::optional<ExactSolution>> exact_solutions;
 };
 
 } // namespace rollwave
