@@ -1,19 +1,21 @@
 #include "rollwave/program.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/version.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
+#include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
 #include "rollwave/study/study_table.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <optional>
 #include <ostream>
 
 namespace rollwave {
@@ -22,11 +24,11 @@ namespace {
 
 void make_study(const Parameters& parameters, OutputDirectory& directory,
                 const Processes& processes, std::ostream& out) {
+  out << version_text() << "\n\n";
   const Study study = run_study(parameters, directory.path(), out, processes.communicator());
   if (processes.is_first()) {
-    out << '\n';
-    print_study(out, study.runs);
-    WrittenFiles written = write_study(directory.path(), parameters, study.runs);
+    print_study_notes(out, study);
+    WrittenFiles written = write_study(directory.path(), parameters, study);
     directory.remove_files_of_earlier_runs(written);
     report_files(out, written);
   }
@@ -34,8 +36,8 @@ void make_study(const Parameters& parameters, OutputDirectory& directory,
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
   if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
-                                           [](const StudyRun& run) { return run.is_solved(); }))
-    throw NotSolved("no run of the study was solved; the first: " + study.runs.front().failure);
+                                           [](const auto& run) { return run->is_solved(); }))
+    throw NotSolved("no run of the study was solved; the first: " + study.runs.front()->failure);
 }
 
 /// Adds the errors to the result, where the exact solution is known.
@@ -56,6 +58,10 @@ void verify(Solution& solution, std::ostream& out) {
 
 void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirectory& directory,
                  const Processes& processes, bool verifies, std::ostream& out) {
+  report_scene(out, scene, parameters);
+  if (parameters.study.true_errors)
+    out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
+           "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, processes.communicator());
   report_result(out, to_lengths(solution.result, scene.unit));
   if (verifies)
@@ -86,18 +92,19 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
   try {
-    const Scene scene = make_scene(parameters);
+    std::optional<Scene> scene; // the runs of a study have their own
+    if (!is_study)
+      scene = make_scene(parameters);
     OutputDirectory directory(parameters, processes.communicator());
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
-    report_scene(out, scene, parameters);
     try {
       if (is_study)
         make_study(parameters, directory, processes, out);
       else
-        solve_scene(scene, parameters, directory, processes, line.verify, out);
+        solve_scene(*scene, parameters, directory, processes, line.verify, out);
     } catch (...) {
       report_earlier_files(out, directory);
       throw;

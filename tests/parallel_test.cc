@@ -256,15 +256,15 @@ protected:
 };
 
 TEST_F(StudyOnProcesses, IsThatOfOne) {
-  const std::string study = scene + " --set 'Study/Vary=Mesh/Angular cells = 40 | 60' --set "
-                                    "'Certificate/Error bound=false'";
+  const std::string study =
+      scene + " --set 'Cylinder/Radial force=20' --set 'Study/Vary=Road/Distance = 0.9 | 0.6'";
   const Outcome alone = shell("$rollwave " + study);
   ASSERT_EQ(alone.exit_code, 0) << alone.text;
   const auto expected = figures();
   std::filesystem::remove_all(directory / "out");
   const Outcome many = shell(on_processes(2) + "$rollwave " + study);
   ASSERT_EQ(many.exit_code, 0) << many.text;
-  EXPECT_EQ(many.text.find("run 1 of 2"), many.text.rfind("run 1 of 2"));
+  EXPECT_EQ(many.text.find("Distance"), many.text.rfind("Distance"));
   expect_figures(expected);
 }
 
@@ -276,7 +276,7 @@ TEST_F(StudyOnProcesses, MayHandOutScenes) {
               "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 600; Road/Distance = "
               "0.8 | 0.85'";
   const Outcome alone = shell("$rollwave " + study);
-  EXPECT_NE(alone.text.find("is not solved"), std::string::npos) << alone.text;
+  EXPECT_NE(alone.text.find("falls short"), std::string::npos) << alone.text;
   const auto expected = figures();
   std::filesystem::remove_all(directory / "out");
   const Outcome many =
@@ -284,7 +284,7 @@ TEST_F(StudyOnProcesses, MayHandOutScenes) {
   EXPECT_EQ(many.exit_code, alone.exit_code) << many.text;
   expect_figures(expected);
   const Outcome again = shell("$rollwave " + study);
-  EXPECT_NE(again.text.find("(done before)"), std::string::npos);
+  EXPECT_NE(again.text.find("done before"), std::string::npos);
   expect_figures(expected);
 }
 

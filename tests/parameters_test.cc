@@ -46,7 +46,7 @@ TEST(Parameters, AreWrittenAndReadBackUnchanged) {
   EXPECT_EQ(again.road.contact_zone, std::pair(4., 5.));
   ASSERT_EQ(again.study.vary.size(), 2u);
   EXPECT_EQ(again.study.vary[0].size(), 2u);
-  EXPECT_EQ(again.study.vary[0][1].value, "2");
+  EXPECT_EQ(again.study.vary[0][1][0].value, "2");
   EXPECT_TRUE(again.wants(OutputFile::summary));
   EXPECT_FALSE(again.wants(OutputFile::solution));
 }
@@ -119,6 +119,31 @@ INSTANTIATE_TEST_SUITE_P(
         "Mesh/Angular cells=4294967295", "Mesh/Radial cells=18446744073709551617",
         "Mesh/Global refinements=1000", "Study/Vary=Mesh/Degree = 1 | 2; Mesh/Degree = 3",
         "Output/Files=everything"));
+
+TEST(Parameters, VaryOverListsAndRanges) {
+  const auto values = [](const std::string& text) {
+    std::string all;
+    const Parameters parameters = parameters_of({"Study/Vary=" + text});
+    for (const auto& choice : parameters.study.vary.at(0))
+      for (const Setting& setting : choice)
+        all += setting.value + ' ';
+    return all;
+  };
+  EXPECT_EQ(values("Road/Distance = 0.6 : 0.9 : 0.05"), "0.6 0.65 0.7 0.75 0.8 0.85 0.9 ");
+  EXPECT_EQ(values("Road/Distance = 0.6:0.9/7"), "0.6 0.65 0.7 0.75 0.8 0.85 0.9 ");
+  EXPECT_EQ(values("Cylinder/Radial force = 0.3 : -0.3 : -0.1"), "0.3 0.2 0.1 0 -0.1 -0.2 -0.3 ");
+  EXPECT_EQ(values("Mesh/Radial cells = 1 | 2 : 5 : 2 | 8"), "1 2 4 8 ");
+  EXPECT_EQ(values("Cylinder/Radial force = r>0.7 ? 1 : 0"), "r>0.7 ? 1 : 0 ");
+  EXPECT_EQ(values("Cylinder/Radial force = (r>0.7 && z<4)"), "(r>0.7 && z<4) ");
+  EXPECT_EQ(values("Mesh/Radial cells & Mesh/Angular cells = 4 & 48 | 8 & 96"), "4 48 8 96 ");
+  for (const char* text : {"Road/Distance = 0.6 : 0.9 : 0", "Road/Distance = 0.6 : 0.9 : -0.1",
+                           "Road/Distance = 0.6 : 0.9 / 1", "Road/Distance = 0.6 : 0.9 : 1e-9",
+                           "Road/Distance = 0.6 : high : 0.1", "Mesh/Degree & Mesh/Degree = 1 & 2",
+                           "Mesh/Radial cells & Mesh/Angular cells = 4 & 48 | 8", "= 1 | 2"})
+    EXPECT_NE(refusal_of_setting(std::string("Study/Vary=") + text), "accepted") << text;
+  const std::string reason = refusal_of_setting("Study/Vary=Output/Files = summary | contact");
+  EXPECT_NE(reason.find("Study/Files of each run"), std::string::npos) << reason;
+}
 
 TEST(Parameters, RefuseMoreRunsThanAListCanHold) {
   std::string vary = "Study/Vary=";
@@ -282,7 +307,7 @@ TEST(Parameters, EndsOfAGivenZoneAreVertices) {
 TEST(Parameters, VariedValuesAreFromThePlaceOfTheStudy) {
   const Parameters parameters =
       parameters_of({"Study/Vary=Mesh/Degree = 1 | 2", "Study/Scenes=thin: Road/Distance = 0.9"});
-  EXPECT_EQ(parameters.study.vary[0][1].origin, "test, Study/Vary");
+  EXPECT_EQ(parameters.study.vary[0][1][0].origin, "test, Study/Vary");
   EXPECT_EQ(parameters.study.scenes[0].settings[0].origin, "test, Study/Scenes");
 }
 

@@ -26,7 +26,7 @@ MPI_Status wait_for_message(MPI_Comm communicator) {
 }
 
 void hand_out(MPI_Comm communicator, unsigned int n_groups, unsigned int n_tasks,
-              const Foreman& foreman) {
+              const std::function<bool(unsigned int task, const std::string& result)>& end) {
   const unsigned int n_processes = count_processes(communicator);
   std::vector<int> task_of(n_processes, no_task);
   unsigned int next = 0;
@@ -38,13 +38,11 @@ void hand_out(MPI_Comm communicator, unsigned int n_groups, unsigned int n_tasks
     MPI_Recv(result.data(), length, MPI_CHAR, status.MPI_SOURCE, tag, communicator,
              MPI_STATUS_IGNORE);
     int& task = task_of[status.MPI_SOURCE];
-    if (task != no_task && !foreman.end(task, result))
+    if (task != no_task && !end(task, result))
       n_tasks = next;
     task = next < n_tasks ? int(next++) : no_task;
     if (task == no_task)
       ++n_waiting;
-    else
-      foreman.begin(task);
     MPI_Send(&task, 1, MPI_INT, status.MPI_SOURCE, tag, communicator);
   }
 }
@@ -52,7 +50,7 @@ void hand_out(MPI_Comm communicator, unsigned int n_groups, unsigned int n_tasks
 } // namespace
 
 void farm_out(MPI_Comm communicator, unsigned int group_size, unsigned int n_tasks,
-              const Foreman& foreman,
+              const std::function<bool(unsigned int task, const std::string& result)>& end,
               const std::function<std::string(unsigned int task, MPI_Comm group)>& work) {
   const unsigned int n_groups = (count_processes(communicator) - 1) / group_size;
   const unsigned int process = process_number(communicator);
@@ -61,7 +59,7 @@ void farm_out(MPI_Comm communicator, unsigned int group_size, unsigned int n_tas
   MPI_Comm group;
   MPI_Comm_split(communicator, number, process, &group);
   if (process == 0)
-    hand_out(communicator, n_groups, n_tasks, foreman);
+    hand_out(communicator, n_groups, n_tasks, end);
   else
     for (std::string result;;) {
       int task = no_task;

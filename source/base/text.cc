@@ -102,6 +102,11 @@ unsigned int to_count(const std::string& text, unsigned int least, unsigned int 
   return static_cast<unsigned int>(number);
 }
 
+std::string shortest_text(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof(text), number).ptr};
+}
+
 std::string in_tex(const std::string& text) {
   std::string tex;
   for (const char c : text)

@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace rollwave {
 
@@ -60,7 +61,12 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
         relevant.add_index(entry.first);
   partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
   find_surface(scene);
-  find_contact_nodes(scene);
+  Scene widest = scene;
+  std::tie(widest.zone_begin, widest.zone_end) =
+      scene.shared_zone.value_or(std::pair(scene.zone_begin, scene.zone_end));
+  turn_to(widest);
+  candidates = contact;
+  turn_to(scene);
   look_over_cells();
 }
 
@@ -152,7 +158,8 @@ void RingSpace::find_surface(const Scene& scene) {
   }
 }
 
-void RingSpace::find_contact_nodes(const Scene& scene) {
+void RingSpace::turn_to(const Scene& scene) {
+  contact.clear();
   for (unsigned int i = 0; i < surface.size(); ++i)
     if (scene.is_in_zone(surface[i].angle)) {
       if (contact.empty())

@@ -23,27 +23,6 @@ std::optional<std::pair<double, double>> parse_zone(const std::string& text) {
   return std::pair(to_number(ends[0]), to_number(ends[1]));
 }
 
-std::set<OutputFile> parse_files(const std::string& text) {
-  using File = OutputFile;
-  const std::map<std::string, std::set<File>> kinds = {
-      {"summary", {File::summary}},
-      {"contact", {File::contact}},
-      {"solution", {File::solution}},
-      {"surface", {File::surface}},
-      {"plot", {File::plot}},
-      {"parameters", {File::parameters}},
-      {"all", {File::summary, File::contact, File::solution, File::surface, File::plot}}};
-  std::set<File> files = {File::parameters};
-  for (const std::string& name : split(text, ',')) {
-    if (name == "mesh")
-      throw BadInput(
-          "the file kind \"mesh\" is gone: see the cells in solution.vtu with ParaView's "
-          "\"Surface With Edges\"");
-    files.merge(choice_of(name, kinds));
-  }
-  return files;
-}
-
 /// Bounds of numbers that have no other.
 constexpr double tiny = std::numeric_limits<double>::min();
 constexpr double huge = std::numeric_limits<double>::max();
@@ -191,34 +170,6 @@ void declare_solver(Declarations& keys, Parameters& p) {
       "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
 }
 
-void declare_study(Declarations& keys, Parameters& p) {
-  keys.enter("Study");
-  keys.add(
-      "Vary", "", [&p](const std::string& text) { p.study.vary = parse_vary(text); },
-      "Empty for a single scene, otherwise the keys to vary and their values, as in "
-      "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest. At most 20 keys, each once and none of Study and Output, in at most 100000 "
-      "combinations.");
-  keys.add(
-      "Scenes", "", [&p](const std::string& text) { p.study.scenes = parse_scenes(text); },
-      "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
-      "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
-      "Mesh/Radial cells = 8\". Every scene is run with every combination of Vary.");
-  keys.add(
-      "Published steps", "",
-      [&p](const std::string& text) { p.study.published_steps = parse_counts(text); },
-      "Numbers of contact steps to print beside ours: one for each run in the order of the runs, "
-      "separated by commas, - where none is known.");
-  keys.add_flag("True errors", p.study.true_errors,
-                "whether to compare every run with the exact "
-                "solution of its scene; where none is known, the certified error is all "
-                "there is.");
-  keys.add_count("Processes per scene", p.study.processes_per_scene, 0, most,
-                 "Under MPI with a number greater than 0, as many processes make a run and several "
-                 "runs are made at the same time; one process hands them out. 0: all processes "
-                 "make each run together.");
-}
-
 void declare_output(Declarations& keys, Parameters& p) {
   keys.enter("Output");
   keys.add_text("Directory", p.output.directory,
@@ -244,7 +195,7 @@ void declare(Declarations& keys, Parameters& p) {
   declare_certificate(keys, p);
   declare_contact(keys, p);
   declare_solver(keys, p);
-  declare_study(keys, p);
+  declare_study(keys, p.study);
   declare_output(keys, p);
 }
 
@@ -278,9 +229,10 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
         value.origin = setting.origin + ", " + key;
       keys.check_key(value);
     };
-    for (auto& values : parameters.study.vary)
-      for (Setting& value : values)
-        set_origin("Study/Vary", value);
+    for (Variation& variation : parameters.study.vary)
+      for (auto& choice : variation)
+        for (Setting& value : choice)
+          set_origin("Study/Vary", value);
     for (auto& scene : parameters.study.scenes)
       for (Setting& value : scene.settings)
         set_origin("Study/Scenes", value);

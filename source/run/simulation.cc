@@ -199,7 +199,8 @@ void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communi
       const Work::Phase phase(result.work, "space");
       solution.space =
           std::make_unique<RingSpace>(*solution.triangulation, solution.scene, mesh.degree);
-    }
+    } else if (cycle == 0)
+      solution.space->turn_to(solution.scene);
     if (cycle == 0 && is_interrupted(communicator))
       throw Interrupted("interrupted before the first mesh was solved");
 

@@ -12,7 +12,7 @@ using namespace dealii;
 
 void DirectSolver::number_unknowns(const Scene& scene) {
   const Work::Phase phase(*work, "ordering");
-  const auto& nodes = space.contact_nodes();
+  const auto& nodes = space.candidate_nodes();
   std::vector<double> heights;
   for (const SurfaceNode& node : nodes)
     heights.push_back(scene.road(node.angle));
@@ -20,10 +20,9 @@ void DirectSolver::number_unknowns(const Scene& scene) {
   std::iota(by_place.begin(), by_place.end(), 0);
   std::stable_sort(by_place.begin(), by_place.end(),
                    [&](auto left, auto right) { return heights[left] > heights[right]; });
-  places.resize(nodes.size());
   std::vector<types::global_dof_index> last;
   for (unsigned int place = 0; place < nodes.size(); ++place) {
-    places[by_place[place]] = place;
+    place_of_dof[nodes[by_place[place]].dof] = place;
     last.push_back(nodes[by_place[place]].dof);
   }
   cholesky = std::make_unique<SparseCholesky>(space, std::move(last));
@@ -48,7 +47,7 @@ void DirectSolver::factorise(const Scene& scene) {
   }
   const Work::Phase phase(*work, "factorisation");
   cholesky->factorise(*work);
-  schur = std::make_unique<DenseSchur>(cholesky->factor().trailing_factor(places.size()));
+  schur = std::make_unique<DenseSchur>(cholesky->factor().trailing_factor(place_of_dof.size()));
   angular_velocity = scene.angular_velocity;
 }
 
@@ -56,13 +55,16 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
+  places.clear();
+  for (const SurfaceNode& node : space.contact_nodes())
+    places.push_back(place_of_dof.at(node.dof));
 
   const Work::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
   this->load = load;
-  const unsigned int m = places.size();
+  const unsigned int m = schur->size();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
@@ -74,7 +76,7 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
 }
 
 Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
-  Vector<double> values(places.size());
+  Vector<double> values(schur->size());
   for (unsigned int i = 0; i < places.size(); ++i)
     values(places[i]) = contact_values(i);
   return values;
@@ -93,7 +95,7 @@ Vector<double> DirectSolver::response(const Vector<double>& force, double /*accu
 
 double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
-  std::vector<bool> is_pinned(places.size());
+  std::vector<bool> is_pinned(schur->size());
   for (unsigned int i = 0; i < places.size(); ++i)
     is_pinned[places[i]] = pinned[i];
   Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
@@ -108,8 +110,14 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   const Work::Phase phase(*work, "back-substitution");
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
+  // The candidates that are no contact nodes are free.
+  Vector<double> displacement = to_places(state.displacement), force(schur->size());
+  std::vector<bool> is_pinned(schur->size());
+  for (const unsigned int place : places)
+    is_pinned[place] = true;
+  schur->solve(is_pinned, contact_load, displacement, force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
-  const Vector<double> trailing = schur->transposed_multiply(to_places(state.displacement));
+  const Vector<double> trailing = schur->transposed_multiply(displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
   FieldVector field = cholesky->scatter(cholesky->factor().backward(std::move(rhs)));

@@ -3,6 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
+#include "rollwave/output/output_directory.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/verify/reference_solution.h"
@@ -11,143 +12,151 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <map>
 #include <new>
-#include <optional>
-#include <string>
-#include <tuple>
-#include <utility>
+#include <set>
 
 namespace rollwave {
 
 using namespace dealii;
 
-/// The exact solutions of scenes, nullopt where none is known: runs that differ in their mesh only
-/// share one.
-class ExactSolutions {
-public:
-  const std::optional<ExactSolution>& find(const Scene& scene) {
-    const auto key =
-        std::tuple(scene.unit, scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-                   scene.road_distance, scene.force_text, scene.zone_begin, scene.zone_end);
-    const auto entry = known.find(key);
-    return entry != known.end() ? entry->second
-                                : known.emplace(key, find_exact_solution(scene)).first->second;
-  }
-
-private:
-  std::map<std::tuple<double, double, double, double, double, std::string, double, double>,
-           std::optional<ExactSolution>>
-      known;
-};
-
-/// The scenes of a study one after the other, each on the mesh of the one before where that is
-/// possible.
-class Sweep {
-public:
-  explicit Sweep(MPI_Comm processes) : processes(processes) {}
-
-  MPI_Comm communicator() const { return processes; }
-
-  /// Announces a run.
-  void announce(const Scene& scene, const Parameters& parameters) {
-    if (most_cycles(parameters.mesh) > 0)
-      return;
-    const auto [entry, is_new] =
-        shared.try_emplace(mesh_key(parameters), Shared{scene.zone_begin, scene.zone_end, 0});
-    Shared& with = entry->second;
-    with.zone_begin = std::min(with.zone_begin, scene.zone_begin);
-    with.zone_end = std::max(with.zone_end, scene.zone_end);
-    ++with.n_runs;
-  }
-
-  Solution& solve(Scene scene, const Parameters& parameters) {
-    const MeshKey key = mesh_key(parameters);
-    Solution previous;
-    if (last_key == key)
-      previous = std::move(*solution);
-    solution.reset(); // assignment would delete the mesh under what lives on it
-    last_key.reset(); // a run that fails leaves nothing
-    const auto entry = shared.find(key);
-    if (entry == shared.end() || entry->second.n_runs == 1)
-      return solution.emplace(simulate(scene, parameters, processes));
-    scene.zone_begin = entry->second.zone_begin;
-    scene.zone_end = entry->second.zone_end;
-    solution.emplace(simulate_next(scene, parameters, std::move(previous), processes));
-    last_key = key;
-    return *solution;
-  }
-
-private:
-  struct Shared {
-    double zone_begin;
-    double zone_end;
-    unsigned int n_runs;
-  };
-
-  const MPI_Comm processes;
-  std::map<MeshKey, Shared> shared;
-  std::optional<MeshKey> last_key;
-  std::optional<Solution> solution;
-};
-
 namespace {
 
-void solve(const Parameters& parameters, Sweep& sweep, ExactSolutions& exact_solutions,
-           StudyRun& run) {
-  const Scene scene = make_scene(parameters);
-  Solution& solution = sweep.solve(scene, parameters);
-  Result& result = solution.result;
-  if (result.is_interrupted)
-    throw Interrupted(shortfall_text(result));
-  if (parameters.study.true_errors)
-    if (const auto& exact = exact_solutions.find(scene)) {
-      result.errors = measure_true_errors(*solution.space, solution.displacement, result,
-                                          solution.certificate, *exact);
-      run.reference = "the semi-analytic solution";
-      if (!result.errors->is_resolved)
-        result.errors.reset();
-    }
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
-  run.figures = figures_of(to_lengths(result, scene.unit));
-  run.failure = shortfall_text(result);
-  for (const std::string& remark : result.remarks)
-    run.remarks += (run.remarks.empty() ? "" : " | ") + remark;
+/// What of the identity of a run is told by @p paths, sections or keys.
+std::map<std::string, std::string> part_of(const RunPlan& plan,
+                                           const std::set<std::string>& paths) {
+  std::map<std::string, std::string> part;
+  for (const auto& entry : plan.identity)
+    if (paths.count(entry.first) + paths.count(entry.first.substr(0, entry.first.find('/'))) > 0)
+      part.insert(entry);
+  return part;
+}
+
+std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
+  return part_of(plan, {"Mesh", "Solver", "Cylinder/Inner radius", "Cylinder/Outer radius",
+                        "Road/Contact zone"});
 }
 
 } // namespace
 
-struct StudyBench::Shared {
-  Sweep sweep;
-  ExactSolutions exact_solutions;
-};
-
-StudyBench::StudyBench(const std::vector<RunPlan>& plans, MPI_Comm communicator)
-    : shared(new Shared{Sweep(communicator), {}}) {
+StudyBench::StudyBench(const std::vector<RunPlan>& plans, const Parameters& study,
+                       const std::filesystem::path& directory, MPI_Comm communicator)
+    : plans(plans), study(study), directory(directory), communicator(communicator) {
+  if (study.study.true_errors)
+    return;
+  std::map<MeshKey, unsigned int> n_runs;
   for (const RunPlan& plan : plans)
-    shared->sweep.announce(make_scene(plan.parameters), plan.parameters);
+    if (most_cycles(plan.parameters.mesh) == 0) {
+      const Scene scene = make_scene(plan.parameters);
+      const MeshKey key = mesh_key(plan);
+      auto& zone = widest_zone.try_emplace(key, scene.zone_begin, scene.zone_end).first->second;
+      zone = {std::min(zone.first, scene.zone_begin), std::max(zone.second, scene.zone_end)};
+      ++n_runs[key];
+    }
+  for (const auto& [key, n] : n_runs)
+    if (n == 1)
+      widest_zone.erase(key);
 }
 
-StudyBench::~StudyBench() = default;
-
-StudyRun StudyBench::make(const RunPlan& plan) {
+StudyRun StudyBench::make(const RunPlan& plan, const std::string& files) {
   StudyRun run;
+  run.files = files;
   try {
-    solve(plan.parameters, shared->sweep, shared->exact_solutions, run);
+    if (study.study.true_errors && !is_warm)
+      warm_up();
+    solve(plan, run);
   } catch (const Interrupted&) {
     throw;
   } catch (const NotSolved& failure) {
     run.failure = failure.what();
   } catch (const BadValue& value) {
     run.failure = refusal(plan.parameters.settings, value);
+    run.is_refused = true;
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
+    run.is_refused = true;
   } catch (const std::bad_alloc&) {
-    if (!is_alone(shared->sweep.communicator()))
+    if (!is_alone(communicator))
       throw; // the others do not know
     run.failure = NotEnoughMemory().what();
   }
+  if (!run.is_solved())
+    run.files.clear();
   return run;
+}
+
+/// The first run of a process also pays for pages of memory and libraries.
+void StudyBench::warm_up() {
+  is_warm = true;
+  const auto smallest =
+      std::min_element(plans.begin(), plans.end(), [](const auto& left, const auto& right) {
+        return count_unknowns(left.parameters.mesh) < count_unknowns(right.parameters.mesh);
+      });
+  RunOptions options = smallest->parameters;
+  options.mesh.adaptive_cycles = 0;
+  options.mesh.wanted_relative_error = 0;
+  try {
+    simulate(make_scene(options), options, communicator);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const BadInput&) {
+    // Told when its turn comes.
+  } catch (const NotSolved&) {
+    // Likewise.
+  }
+}
+
+void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
+  Scene scene = make_scene(plan.parameters);
+  const MeshKey key = mesh_key(plan);
+  Solution previous;
+  if (last_mesh == key) {
+    previous = std::move(*solution);
+    run.shared = "mesh";
+  }
+  solution.reset();  // assignment would delete the mesh under what lives on it
+  last_mesh.reset(); // a run that fails leaves nothing
+  if (const auto zone = widest_zone.find(key); zone == widest_zone.end())
+    solution.emplace(simulate(scene, plan.parameters, communicator));
+  else {
+    scene.shared_zone = zone->second;
+    solution.emplace(simulate_next(scene, plan.parameters, std::move(previous), communicator));
+    last_mesh = key;
+  }
+  Result& result = solution->result;
+  if (result.is_interrupted)
+    throw Interrupted(shortfall_text(result));
+  if (!run.shared.empty() && result.work.stiffness_assemblies == 0)
+    run.shared = "mesh and matrices";
+  if (study.study.true_errors)
+    if (const auto& exact = exact_solution(plan, solution->scene)) {
+      result.errors = measure_true_errors(*solution->space, solution->displacement, result,
+                                          solution->certificate, *exact);
+      run.reference = "the semi-analytic solution";
+      if (!result.errors->is_resolved)
+        result.errors.reset();
+    }
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
+  if (!run.files.empty()) {
+    Parameters parameters = plan.parameters;
+    parameters.output.files = study.study.files_of_each_run;
+    write_results(directory / run.files, solution->scene, parameters, *solution);
+  }
+  const Result own = to_lengths(result, scene.unit);
+  run.figures = figures_of(own);
+  run.pressure = pressure_of(own);
+  run.failure = shortfall_text(result);
+  run.remarks = result.remarks;
+}
+
+const std::optional<ExactSolution>& StudyBench::exact_solution(const RunPlan& plan,
+                                                               const Scene& scene) {
+  const std::pair key(
+      part_of(plan, {"Cylinder", "Road"}),
+      std::array<double, 3>{{scene.zone_begin, scene.zone_end, scene.road_distance}});
+  const auto known = exact_solutions.find(key);
+  return known != exact_solutions.end()
+             ? known->second
+             : exact_solutions.emplace(key, find_exact_solution(scene)).first->second;
 }
 
 } // namespace rollwave

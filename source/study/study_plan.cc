@@ -1,41 +1,137 @@
 #include "rollwave/study/study_plan.h"
 
+#include "rollwave/run/simulation.h"
+#include "rollwave/scene/scene.h"
+
+#include <cctype>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace rollwave {
 
 namespace {
 
-/// All combinations of one setting from each list, the last list varying fastest.
-std::vector<std::vector<Setting>> combinations(const std::vector<std::vector<Setting>>& lists) {
+/// All combinations of one choice from each variation, the last varying fastest.
+std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& variations) {
   std::vector<std::vector<Setting>> all(1);
-  for (const auto& list : lists) {
+  for (const Variation& variation : variations) {
     std::vector<std::vector<Setting>> longer;
     for (const auto& combination : all)
-      for (const Setting& setting : list) {
+      for (const auto& choice : variation) {
         longer.push_back(combination);
-        longer.back().push_back(setting);
+        longer.back().insert(longer.back().end(), choice.begin(), choice.end());
       }
     all = std::move(longer);
   }
   return all;
 }
 
+/// Its numbers in their shortest form: 0.9 for 0.90.
+std::string shortest(const std::string& value) {
+  std::string text;
+  for (const std::string& part : split(value, ',')) {
+    text += text.empty() ? "" : ", ";
+    try {
+      text += shortest_text(to_number(part));
+    } catch (const std::invalid_argument&) {
+      text += part;
+    }
+  }
+  return text;
+}
+
+std::map<std::string, std::string> default_values() {
+  std::stringstream text;
+  print_parameters(text, {});
+  std::map<std::string, std::string> values;
+  for (const Setting& setting : read_settings(text, "defaults"))
+    values[setting.path()] = shortest(setting.value);
+  return values;
+}
+
+void check(const Parameters& parameters, unsigned int n_processes) {
+  try {
+    make_scene(parameters);
+    check_simulation(parameters, n_processes);
+  } catch (const BadValue& value) {
+    throw BadInput(refusal(parameters.settings, value));
+  }
+}
+
+struct Words {
+  std::string words, symbol;
+};
+
+const std::map<std::string, Words> words_of_keys = {
+    {"Cylinder/Inner radius", {"radius of the hub", "a"}},
+    {"Cylinder/Outer radius", {"radius of the cylinder", "b"}},
+    {"Cylinder/Angular velocity", {"angular velocity", "ω"}},
+    {"Cylinder/Radial force", {"radial force", "f"}},
+    {"Road/Distance", {"road distance", "c"}},
+    {"Road/Load", {"load", "L"}},
+    {"Road/Curvature", {"curvature of the road", "κ"}},
+    {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
+    {"Contact/Rho", {"step length", "ρ"}}};
+
 } // namespace
 
-std::vector<RunPlan> plan_runs(const Parameters& parameters) {
+std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes) {
   std::vector<NamedScene> scenes = parameters.study.scenes;
   if (scenes.empty())
     scenes.push_back({"", {}});
+  std::vector<Setting> common;
+  for (const Setting& setting : parameters.settings)
+    if (setting.section != "Study" && setting.section != "Output")
+      common.push_back(setting);
+  const auto defaults = default_values();
   std::vector<RunPlan> plans;
   for (const auto& scene : scenes)
     for (const auto& varied : combinations(parameters.study.vary)) {
-      std::vector<Setting> settings = parameters.settings;
+      std::vector<Setting> settings = common;
       settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
       settings.insert(settings.end(), varied.begin(), varied.end());
-      plans.push_back({scene.name, varied, read_parameters(settings)});
+      plans.push_back({scene.name, varied, {}, read_parameters(settings), {}});
+      check(plans.back().parameters, n_processes);
+      for (const Setting& setting : settings) {
+        auto& value = plans.back().identity[setting.path()] = shortest(setting.value);
+        if (value == defaults.at(setting.path()))
+          plans.back().identity.erase(setting.path());
+      }
+      if (parameters.study.true_errors)
+        plans.back().identity["Study/True errors"] = "true";
     }
+  const auto& published = parameters.study.published_steps;
+  if (!published.empty() && published.size() != plans.size())
+    throw BadInput(refusal(parameters.settings, "Study", "Published steps",
+                           "there are " + std::to_string(published.size()) + " entries for " +
+                               std::to_string(plans.size()) + " runs"));
+  for (unsigned int i = 0; i < published.size(); ++i)
+    plans[i].published_steps = published[i];
   return plans;
+}
+
+std::string symbol(const Setting& setting) {
+  const auto known = words_of_keys.find(setting.path());
+  return known != words_of_keys.end() ? known->second.symbol : words(setting);
+}
+
+std::string words(const Setting& setting) {
+  const auto known = words_of_keys.find(setting.path());
+  if (known != words_of_keys.end())
+    return known->second.words + ' ' + known->second.symbol;
+  std::string text = setting.key;
+  text[0] = std::tolower(text[0]);
+  return text;
+}
+
+std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told) {
+  std::string text = plan.scene;
+  for (const Setting& setting : plan.varied)
+    if (is_told(setting))
+      text += (text.empty() ? "" : ", ") + symbol(setting) +
+              (words_of_keys.count(setting.path()) > 0 ? " = " : " ") + setting.value;
+  return text;
 }
 
 } // namespace rollwave

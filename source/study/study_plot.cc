@@ -2,71 +2,148 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
 
 namespace {
 
-std::string number_or_nan(const std::optional<double>& value) {
-  std::ostringstream text;
-  text.precision(9);
-  if (value)
-    text << *value;
-  else
-    text << "NaN";
-  return text.str();
-}
+constexpr unsigned int most_curves = 12;
 
-/// For gnuplot, between single quotes.
-std::string text_for_gnuplot(const std::string& text) {
+/// Colours of curves; with the dashes they can be told apart in print as well.
+const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                          "#000000", "#e69f00", "#56b4e9", "#8b4513",
+                                          "#7a3fbf", "#808000", "#d00030", "#707070"};
+
+/// For gnuplot, in single quotes.
+std::string quoted(const std::string& text) {
   std::string doubled;
   for (const char letter : text)
     doubled += letter == '\'' ? "''" : std::string(1, letter);
-  return doubled;
+  return '\'' + doubled + '\'';
+}
+
+void write_points(std::ostream& script, const std::string& name, const Points& points) {
+  script << name << " << EOD\n";
+  for (const auto& [x, y] : points)
+    if (std::isnan(y))
+      script << x << " NaN\n";
+    else
+      script << x << ' ' << y << '\n';
+  script << "EOD\n";
+}
+
+/// c of the line y = c x^slope, below all points.
+double below(const std::vector<Curve>& curves, double slope) {
+  double least = std::numeric_limits<double>::max();
+  for (const Curve& curve : curves)
+    for (const auto& [x, y] : curve.points)
+      if (!std::isnan(y) && x > 0 && y > 0)
+        least = std::min(least, y / std::pow(x, slope));
+  return least / 2;
+}
+
+std::string style(unsigned int curve) {
+  return " linecolor rgb '" + colours[curve % most_curves] + "' dashtype " +
+         std::to_string(1 + curve % 4);
+}
+
+/// The command that plots a panel, whose curves are the data blocks $nPANEL_CURVE. @param
+/// legend_rows of the legend of all panels; 0 for none
+void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigned int legend_rows) {
+  script << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label);
+  if (legend_rows > 0)
+    script << "\nset key at screen 0.5, 0.01 center bottom vertical maxrows " << legend_rows;
+  else
+    script << "\nunset key";
+  // Offsets are lengths on the axis, which would lead a logarithmic one below zero.
+  script << (panel.has_log_x ? "\nset logscale x\nset offsets 0, 0, 0, 0\n"
+                             : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
+                               "set autoscale xfix\n")
+         << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\nplot ";
+  for (unsigned int i = 0; i < panel.curves.size(); ++i) {
+    const Curve& curve = panel.curves[i];
+    const std::string name = "$n" + std::to_string(number) + '_' + std::to_string(i);
+    script << (i > 0 ? ", " : "") << name
+           << (curve.points.size() > 40 ? " with lines"
+                                        : " with linespoints pointtype 7 pointsize 0.5")
+           << " linewidth 2" << style(i) << " title " << quoted(curve.title);
+    if (!curve.marks.empty())
+      script << ", " << name << "m with points linecolor rgb '" << colours[i % most_curves]
+             << "' pointtype 6 pointsize 1.4 linewidth 2 title "
+             << quoted(curve.title + " published");
+  }
+  for (const double slope : panel.slopes)
+    script << ", " << below(panel.curves, slope) << " * x**(" << slope
+           << ") with lines linecolor rgb '#808080' dashtype 3 title 'slope " << slope << "'";
+  script << '\n';
 }
 
 } // namespace
 
-Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot) {
+std::vector<Curve> distinct(std::vector<Curve> curves) {
+  std::vector<Curve> chosen;
+  const std::size_t n = curves.size(), n_chosen = std::min<std::size_t>(n, most_curves);
+  for (std::size_t i = 0; i < n_chosen; ++i)
+    chosen.push_back(std::move(curves[n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1)]));
+  return chosen;
+}
+
+Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels) {
   std::ostringstream script;
-  std::vector<std::string> curves;
-  double x_low = 0, x_high = 0, y_high = 0;
-  for (const StudyRun& run : runs) {
-    if (curves.empty() || curves.back() != run.curve()) {
-      script << (curves.empty() ? "" : "EOD\n") << "$curve" << curves.size() << " << EOD\n";
-      curves.push_back(run.curve());
+  script.precision(9);
+  script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
+  unsigned int n_titles = 0;
+  for (unsigned int k = 0; k < panels.size(); ++k)
+    for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
+      const Curve& curve = panels[k].curves[i];
+      const std::string name = "$n" + std::to_string(k) + '_' + std::to_string(i);
+      write_points(script, name, curve.points);
+      if (!curve.marks.empty())
+        write_points(script, name + 'm', curve.marks);
+      n_titles += k == 0 ? 1 + !curve.marks.empty() : 0;
     }
-    const auto x = plot.x(run), y = plot.y(run);
-    if (x && y) {
-      x_low = x_high == 0 ? *x : std::min(x_low, *x);
-      x_high = std::max(x_high, *x);
-      y_high = std::max(y_high, *y);
-    }
-    script << number_or_nan(x) << ' ' << number_or_nan(y) << ' '
-           << number_or_nan(plot.marks ? plot.marks(run) : std::nullopt) << '\n';
+  const bool is_single = panels.size() == 1;
+  n_titles += panels[0].slopes.size();
+  const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
+  const unsigned int columns = is_single ? 1 : 2, rows = (panels.size() + columns - 1) / columns,
+                     legend_columns = is_single ? 3 : 4,
+                     legend_rows =
+                         has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
+                     width = is_single ? 760 : 1000,
+                     height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
+  script << "set multiplot layout " << rows << ',' << columns << " title " << quoted(title)
+         << " margins " << (is_single ? 0.12 : 0.09) << ",0.97,"
+         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
+         << 65. / height << '\n';
+  for (unsigned int k = 0; k < panels.size(); ++k)
+    plot(script, panels[k], k, k == 0 ? legend_rows : 0);
+  script << "unset multiplot\n";
+  return Drawing(script.str(), width, height);
+}
+
+Drawing plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+                 const std::vector<std::vector<std::array<double, 3>>>& lines) {
+  std::ostringstream script;
+  script.precision(9);
+  script << "set encoding utf8\n$map << EOD\n";
+  for (const auto& line : lines) {
+    for (const auto& [x, y, value] : line)
+      if (std::isnan(value))
+        script << x << ' ' << y << " NaN\n";
+      else
+        script << x << ' ' << y << ' ' << value << '\n';
+    script << '\n';
   }
-  script << "EOD\nset datafile missing 'NaN'\nset grid\nset key below height 1\n"
-         << (plot.log_y ? "set logscale y\n" : "")
-         << (plot.log_x ? "set logscale x\nset format x '%.0e'\n" : "") << "set format y '%g'\n"
-         << "set offsets graph 0.03, graph 0.03, 0, 0\nset xlabel '" << plot.x_label
-         << "'\nset ylabel '" << plot.y_label << "'\nplot ";
-  for (unsigned int i = 0; i < curves.size(); ++i) {
-    script << (i > 0 ? ", " : "") << "$curve" << i << " using 1:2 with linespoints linewidth 2 "
-           << "linetype " << i + 1 << " pointtype 7 pointsize 0.6 title '"
-           << text_for_gnuplot(curves[i]) << "'";
-    if (plot.marks)
-      script << ", $curve" << i << " using 1:3 with points linetype " << i + 1
-             << " pointtype 6 pointsize 1.4 linewidth 2 title '" << text_for_gnuplot(curves[i])
-             << " published'";
-  }
-  // Beside the curves, which begin where they are highest.
-  for (unsigned int i = 0; i < plot.slopes.size(); ++i)
-    script << ", [" << x_low << ':' << x_high << "] " << y_high / 2 << " * (x / "
-           << (plot.slopes[i] < 0 ? x_low : x_high) << ")**(" << plot.slopes[i]
-           << ") with lines dashtype " << i + 2 << " linecolor rgb '#808080' title 'slope "
-           << plot.slopes[i] << "'";
-  script << '\n';
+  script << "EOD\nset datafile missing 'NaN'\nset contour base\nset cntrparam levels 10\n"
+            "unset surface\nset table $contours\nsplot $map\nunset table\nunset contour\n"
+            "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
+            "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
+         << quoted(title) << "\nset xlabel " << quoted(x_label) << "\nset ylabel "
+         << quoted(y_label)
+         << "\nset pm3d interpolate 8,8\n"
+            "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1\n";
   return Drawing(script.str(), 760, 560);
 }
 

@@ -1,232 +1,202 @@
 #include "rollwave/study/study_record.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
-#include <optional>
 #include <sstream>
-#include <string>
+#include <tuple>
 
 namespace rollwave {
 
+using Json = nlohmann::ordered_json;
+
 namespace {
 
-/// The columns of figures, in their order.
-const std::vector<std::string>& figure_names() {
-  static const std::vector<std::string> names = {"degree",
-                                                 "cells",
-                                                 "dofs",
-                                                 "h_max",
-                                                 "cycles",
-                                                 "contact_steps",
-                                                 "linear_iterations",
-                                                 "force",
-                                                 "energy",
-                                                 "half_width",
-                                                 "peak_pressure",
-                                                 "left_end",
-                                                 "right_end",
-                                                 "vertical_load",
-                                                 "work_conjugate_load",
-                                                 "load_lower_bound",
-                                                 "load_upper_bound",
-                                                 "error_energy_norm",
-                                                 "error_relative",
-                                                 "error_l2_norm",
-                                                 "error_pressure",
-                                                 "error_force",
-                                                 "error_energy",
-                                                 "error_half_width",
-                                                 "expected_order",
-                                                 "error_feasible",
-                                                 "certified_energy_norm",
-                                                 "certified_relative",
-                                                 "energy_lower_bound",
-                                                 "energy_upper_bound",
-                                                 "effectivity",
-                                                 "bound_over_error",
-                                                 "residual",
-                                                 "round_off",
-                                                 "seconds_mesh",
-                                                 "seconds_space",
-                                                 "seconds_assembly",
-                                                 "seconds_ordering",
-                                                 "seconds_factorisation",
-                                                 "seconds_preconditioner",
-                                                 "seconds_contact",
-                                                 "seconds_back-substitution",
-                                                 "seconds_measurement",
-                                                 "seconds_indicator",
-                                                 "seconds_certificate",
-                                                 "seconds",
-                                                 "peak_memory_mib"};
-  return names;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double or_none(const std::optional<double>& value) {
+  return value.value_or(none);
 }
 
-/// The end of the header, which is the same for all studies.
-std::string figure_header() {
-  std::string header = "solved,published_steps,reference,failure";
-  for (const std::string& name : figure_names())
-    header += "," + name;
-  return header + ",remarks";
-}
+/// Phases of Work, as they follow each other.
+constexpr const char* phases[] = {
+    "mesh",          "space",          "assembly",    "ordering",
+    "factorisation", "preconditioner", "contact",     "back-substitution",
+    "measurement",   "indicator",      "certificate", "output"};
 
-/// Text as a field in quotes.
-std::string quoted(std::string text) {
-  std::replace(text.begin(), text.end(), '"', '\'');
+/// A text as a field of a CSV file.
+std::string csv_field(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return '"' + text + '"';
+  if (text.find_first_of(",\"") == std::string::npos)
+    return text;
+  std::string quoted;
+  for (const char c : text)
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return '"' + quoted + '"';
 }
 
-/// The text of the field in quotes that ends before @p end, which is moved to the comma before it;
-/// nullopt without one.
-std::optional<std::string> take_quoted(const std::string& line, std::size_t& end) {
-  const auto quote = end > 1 && line[end - 1] == '"' ? line.rfind('"', end - 2) : std::string::npos;
-  if (quote == std::string::npos || quote == 0)
-    return {};
-  const std::string text = line.substr(quote + 1, end - quote - 2);
-  end = quote - 1;
-  return text;
+StudyRun run_of(const Json& json) {
+  StudyRun run;
+  for (const auto& [name, value] : json.at("figures").items())
+    run.figures.emplace_back(name, value.is_null() ? none : value.get<double>());
+  json.at("reference").get_to(run.reference);
+  json.at("failure").get_to(run.failure);
+  json.at("refused").get_to(run.is_refused);
+  json.at("remarks").get_to(run.remarks);
+  json.at("shared").get_to(run.shared);
+  json.at("files").get_to(run.files);
+  json.at("pressure").get_to(run.pressure);
+  return run;
 }
 
 } // namespace
 
 std::optional<double> StudyRun::figure(const std::string& name) const {
-  const auto found = figures.find(name);
-  return found == figures.end() ? std::nullopt : std::optional(found->second);
+  for (const auto& [own_name, value] : figures)
+    if (own_name == name && !std::isnan(value))
+      return value;
+  return {};
 }
 
-std::string StudyRun::curve() const {
-  std::string text = scene;
-  for (unsigned int i = 0; i + 1 < settings.size(); ++i)
-    text += (text.empty() ? "" : ", ") + settings[i].key + " " + settings[i].value;
-  return text;
-}
-
-std::map<std::string, double> figures_of(const Result& result) {
-  std::map<std::string, double> figures = {
-      {"degree", result.mesh.degree},
-      {"cells", result.mesh.cells},
-      {"dofs", result.mesh.dofs},
-      {"h_max", result.mesh.h_max},
+std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
+  const auto& [mesh, patch, errors, certified] =
+      std::tie(result.mesh, result.patch, result.errors, result.certified);
+  const auto& bounds = result.load_bounds;
+  const double feasible = errors ? or_none(errors->admissible_energy_norm) : none;
+  std::vector<std::pair<std::string, double>> figures = {
+      {"degree", mesh.degree},
+      {"cells", mesh.cells},
+      {"dofs", mesh.dofs},
+      {"h_max", mesh.h_max},
       {"cycles", result.cycles.size()},
       {"contact_steps", result.history.size()},
       {"linear_iterations", result.work.linear_iterations},
-      {"force", result.patch.force},
+      {"road_distance", result.road_distance},
+      {"force", patch.force},
       {"energy", result.energy.value},
-      {"half_width", result.patch.half_width()},
-      {"peak_pressure", result.patch.peak_pressure},
-      {"vertical_load", result.patch.vertical_load},
-      {"work_conjugate_load", result.patch.work_conjugate_load},
+      {"half_width", patch.half_width()},
+      {"peak_pressure", patch.peak_pressure},
+      {"left_end", patch.ends ? patch.ends->first : none},
+      {"right_end", patch.ends ? patch.ends->second : none},
+      {"vertical_load", patch.vertical_load},
+      {"work_conjugate_load", patch.work_conjugate_load},
+      {"load_lower_bound", bounds ? bounds->lower : none},
+      {"load_upper_bound", bounds ? bounds->upper : none},
+      {"error_energy_norm", errors ? errors->energy_norm : none},
+      {"error_relative", errors ? errors->relative_energy_norm : none},
+      {"error_l2_norm", errors ? errors->l2_norm : none},
+      {"error_pressure", errors ? errors->pressure : none},
+      {"error_force", errors ? errors->force : none},
+      {"error_energy", errors ? errors->energy : none},
+      {"error_half_width", errors ? errors->half_width : none},
+      {"expected_order", errors ? errors->expected_order : none},
+      {"error_feasible", feasible},
+      {"certified_energy_norm", certified ? certified->energy_norm : none},
+      {"certified_relative", certified ? certified->relative : none},
+      {"energy_lower_bound", certified ? certified->lower_bound : none},
+      {"energy_upper_bound", certified ? certified->upper_bound : none},
+      {"effectivity", errors ? or_none(errors->effectivity) : none},
+      {"bound_over_error",
+       certified && std::isgreater(feasible, 0.) ? certified->energy_norm / feasible : none},
       {"residual", result.residuals.largest()},
-      {"round_off", result.residuals.round_off},
-      {"seconds", result.work.total_seconds()},
-      {"peak_memory_mib", result.peak_memory_mib}};
-  for (const auto& [phase, seconds] : result.work.seconds())
-    figures["seconds_" + phase] = seconds;
-  if (result.patch.ends) {
-    figures["left_end"] = result.patch.ends->first;
-    figures["right_end"] = result.patch.ends->second;
+      {"round_off", result.residuals.round_off}};
+  const auto& seconds = result.work.seconds();
+  for (const char* const phase : phases) {
+    const auto spent = std::find_if(seconds.begin(), seconds.end(),
+                                    [&](const auto& entry) { return entry.first == phase; });
+    figures.emplace_back(std::string("seconds_") + phase,
+                         spent == seconds.end() ? none : spent->second);
   }
-  if (result.load_bounds) {
-    figures["load_lower_bound"] = result.load_bounds->lower;
-    figures["load_upper_bound"] = result.load_bounds->upper;
-  }
-  if (result.errors) {
-    figures["error_energy_norm"] = result.errors->energy_norm;
-    figures["error_relative"] = result.errors->relative_energy_norm;
-    if (std::isfinite(result.errors->l2_norm))
-      figures["error_l2_norm"] = result.errors->l2_norm;
-    figures["error_pressure"] = result.errors->pressure;
-    figures["error_force"] = result.errors->force;
-    figures["error_energy"] = result.errors->energy;
-    figures["error_half_width"] = result.errors->half_width;
-    figures["expected_order"] = result.errors->expected_order;
-    if (result.errors->admissible_energy_norm) {
-      figures["error_feasible"] = *result.errors->admissible_energy_norm;
-      if (result.errors->effectivity)
-        figures["effectivity"] = *result.errors->effectivity;
-      if (*result.errors->admissible_energy_norm > 0)
-        figures["bound_over_error"] =
-            result.certified->energy_norm / *result.errors->admissible_energy_norm;
-    }
-  }
-  if (result.certified) {
-    figures["certified_energy_norm"] = result.certified->energy_norm;
-    figures["certified_relative"] = result.certified->relative;
-    figures["energy_lower_bound"] = result.certified->lower_bound;
-    figures["energy_upper_bound"] = result.certified->upper_bound;
-  }
+  figures.emplace_back("seconds", result.work.total_seconds());
+  figures.emplace_back("peak_memory_mib", result.peak_memory_mib);
   return figures;
 }
 
-std::string study_csv(const std::vector<StudyRun>& runs) {
-  if (runs.empty())
-    return {};
-  std::ostringstream out;
-  out.precision(std::numeric_limits<double>::max_digits10);
-  if (!runs.front().scene.empty())
-    out << "scene,";
-  for (const Setting& setting : runs.front().settings)
-    out << setting.path() << ',';
-  out << figure_header() << '\n';
-  for (const StudyRun& run : runs) {
-    if (!run.scene.empty())
-      out << '"' << run.scene << "\",";
-    for (const Setting& setting : run.settings)
-      out << (setting.value.find(',') == std::string::npos ? setting.value
-                                                           : '"' + setting.value + '"')
-          << ',';
-    out << run.is_solved() << ',';
-    if (run.published_steps)
-      out << *run.published_steps;
-    out << ',' << quoted(run.reference) << ',' << quoted(run.failure);
-    for (const std::string& name : figure_names()) {
-      out << ',';
-      if (const auto figure = run.figure(name))
-        out << *figure;
-    }
-    out << ',' << quoted(run.remarks) << '\n';
-  }
-  return out.str();
+std::vector<std::pair<double, double>> pressure_of(const Result& result) {
+  const auto& rows = result.contact_rows;
+  const auto presses = [](const ContactRow& row) { return row.pressure > 0; };
+  const auto first = std::find_if(rows.begin(), rows.end(), presses);
+  const auto last = std::find_if(rows.rbegin(), rows.rend(), presses).base();
+  std::vector<std::pair<double, double>> pressure;
+  if (first == rows.end())
+    return pressure;
+  const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, first - rows.begin() - 1),
+                       end = std::min<std::ptrdiff_t>(rows.size(), last - rows.begin() + 1),
+                       step = 1 + (end - begin) / 100;
+  for (std::ptrdiff_t i = begin; i < end; ++i)
+    if ((i - begin) % step == 0 || i + 1 == end)
+      pressure.emplace_back(rows[i].angle, rows[i].pressure);
+  return pressure;
 }
 
-std::vector<StudyRun> read_study_csv(const std::string& text) {
-  std::istringstream in(text);
-  std::string line;
-  std::vector<StudyRun> runs;
-  std::getline(in, line);
-  const std::string expected = figure_header();
-  if (line.size() < expected.size() ||
-      line.compare(line.size() - expected.size(), expected.size(), expected) != 0)
-    return runs;
-  while (std::getline(in, line) && !in.eof()) { // a row without its end may lack digits
-    // From the end: figures have no commas, but the varied values before them may.
-    StudyRun run;
-    std::size_t end = line.size();
-    const auto remarks = take_quoted(line, end);
-    if (!remarks)
-      return runs;
-    run.remarks = *remarks;
-    for (auto name = figure_names().rbegin(); name != figure_names().rend(); ++name) {
-      const auto comma = end > 0 ? line.rfind(',', end - 1) : std::string::npos;
-      if (comma == std::string::npos)
-        return runs;
-      const std::string field = line.substr(comma + 1, end - comma - 1);
-      if (!field.empty())
-        run.figures[*name] = std::strtod(field.c_str(), nullptr);
-      end = comma;
+std::string to_json(const RunPlan& plan, const StudyRun& run) {
+  Json figures = Json::object();
+  for (const auto& [name, value] : run.figures)
+    figures[name] = std::isnan(value) ? Json() : Json(value);
+  return Json{
+      {"settings", plan.identity}, {"figures", figures},        {"reference", run.reference},
+      {"failure", run.failure},    {"refused", run.is_refused}, {"remarks", run.remarks},
+      {"shared", run.shared},      {"files", run.files},        {"pressure", run.pressure}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::vector<std::pair<std::map<std::string, std::string>, StudyRun>>
+read_study_runs(const std::string& text) {
+  std::vector<std::pair<std::map<std::string, std::string>, StudyRun>> runs;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    try {
+      const Json json = Json::parse(line);
+      runs.emplace_back(json.at("settings").get<std::map<std::string, std::string>>(),
+                        run_of(json));
+    } catch (const Json::exception&) {
+      // A line that is torn or of another kind.
     }
-    for (std::string* const text : {&run.failure, &run.reference}) {
-      const auto field = take_quoted(line, end);
-      if (!field)
-        return runs;
-      *text = *field;
-    }
-    runs.push_back(std::move(run));
-  }
   return runs;
+}
+
+std::string study_csv(const Study& study) {
+  const RunPlan& first = study.plans.front();
+  const bool has_scenes = !first.scene.empty();
+  std::vector<std::string> names;
+  for (const auto& run : study.runs)
+    if (run && names.empty())
+      for (const auto& figure : run->figures)
+        names.push_back(figure.first);
+
+  std::ostringstream out;
+  out << (has_scenes ? "scene," : "");
+  for (const Setting& setting : first.varied)
+    out << setting.path() << ',';
+  out << "solved,published_steps,reference,failure,remarks,files";
+  for (const std::string& name : names)
+    out << ',' << name;
+  out << ",shared\n";
+  for (unsigned int i = 0; i < study.plans.size(); ++i) {
+    if (!study.runs[i])
+      continue;
+    const RunPlan& plan = study.plans[i];
+    const StudyRun& run = *study.runs[i];
+    std::string remarks;
+    for (const std::string& remark : run.remarks)
+      remarks += (remarks.empty() ? "" : " | ") + remark;
+    if (has_scenes)
+      out << csv_field(plan.scene) << ',';
+    for (const Setting& setting : plan.varied)
+      out << csv_field(setting.value) << ',';
+    out << run.is_solved() << ','
+        << (plan.published_steps ? std::to_string(*plan.published_steps) : "") << ','
+        << csv_field(run.reference) << ',' << csv_field(run.failure) << ',' << csv_field(remarks)
+        << ',' << run.files;
+    for (const std::string& name : names) {
+      const auto value = run.figure(name);
+      out << ',' << (value ? shortest_text(*value) : "");
+    }
+    out << ',' << csv_field(run.shared) << '\n';
+  }
+  return out.str();
 }
 
 } // namespace rollwave

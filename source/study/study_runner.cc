@@ -6,16 +6,15 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/task_farm.h"
 #include "rollwave/output/output_directory.h"
-#include "rollwave/run/simulation.h"
-#include "rollwave/scene/scene.h"
 #include "rollwave/study/study_bench.h"
-#include "rollwave/study/study_plan.h"
+#include "rollwave/study/study_table.h"
 
 #include <algorithm>
 #include <fstream>
-#include <map>
+#include <functional>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -23,208 +22,223 @@ namespace rollwave {
 
 namespace {
 
-/// All parameters but how many processes make a run, which a study can be gone on with in another
-/// number.
-std::string parameters_text(Parameters parameters) {
-  auto& settings = parameters.settings;
-  settings.erase(std::remove_if(settings.begin(), settings.end(),
-                                [](const Setting& setting) {
-                                  return setting.path() == "Study/Processes per scene";
-                                }),
-                 settings.end());
-  std::ostringstream text;
-  write_parameters(text, parameters);
-  return text.str();
+namespace fs = std::filesystem;
+
+/// Keeps study.csv and study.jsonl under the first names that are free.
+void set_aside(const fs::path& directory, std::ostream& out) {
+  std::string kept;
+  for (unsigned int number = 1; kept.empty(); ++number) {
+    const std::string name = "study-before" + (number > 1 ? "-" + std::to_string(number) : "");
+    if (!fs::exists(directory / (name + ".csv")) && !fs::exists(directory / (name + ".jsonl")))
+      kept = name;
+  }
+  for (const std::string ending : {".jsonl", ".csv"}) {
+    std::error_code error;
+    if (fs::exists(directory / ("study" + ending), error))
+      fs::rename(directory / ("study" + ending), directory / (kept + ending), error);
+    if (error)
+      throw NotWritten((directory / ("study" + ending)).string() +
+                       " could not be moved: " + error.message());
+  }
+  out << "Note: study.csv has rows of other runs, and is kept as " << kept << ".csv\n";
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
+/// Whether a run has no need to be made again.
+bool is_final(const StudyRun& run, const Parameters& study, const fs::path& directory) {
+  if (!run.failure.empty() && !run.is_refused)
+    return false;
+  if (run.is_refused)
+    return true;
+  const auto has = [&](const char* name) { return fs::exists(directory / run.files / name); };
+  const auto& kinds = study.study.files_of_each_run;
+  return std::all_of(kinds.begin(), kinds.end(), [&](OutputFile kind) {
+    return !run.files.empty() &&
+           (kind == OutputFile::plot || (kind == OutputFile::summary && has("summary.json")) ||
+            (kind == OutputFile::contact && has("contact.csv")) ||
+            (kind == OutputFile::parameters && has("parameters.prm")) ||
+            (kind == OutputFile::surface && has("surface.vtu")) ||
+            (kind == OutputFile::solution && (has("solution.vtu") || has("solution.pvtu"))));
+  });
 }
 
-/// The study.csv of an earlier call of this study, empty when there is none; otherwise makes the
-/// directory that of this study, and keeps the table of another one aside.
-std::string claim_directory(const Parameters& parameters, const std::filesystem::path& directory,
-                            std::ostream& progress) {
-  const std::string own = parameters_text(parameters);
-  if (own == read_text(directory / "parameters.prm"))
-    return read_text(directory / "study.csv");
+/// Of an earlier call the lines of runs that need not be made again; a table with other runs is set
+/// aside.
+std::string earlier_runs(const Parameters& parameters, const fs::path& directory,
+                         const std::vector<RunPlan>& plans, std::ostream& out) {
+  std::ostringstream text;
+  text << std::ifstream(directory / "study.jsonl").rdbuf();
+  const auto runs = read_study_runs(text.str());
+  std::map<std::map<std::string, std::string>, const RunPlan*> plan_of;
+  for (const RunPlan& plan : plans)
+    plan_of[plan.identity] = &plan;
+  std::string kept;
+  bool has_others = runs.empty() && fs::exists(directory / "study.csv");
+  for (const auto& [identity, run] : runs)
+    if (const auto plan = plan_of.find(identity); plan == plan_of.end())
+      has_others = true;
+    else if (is_final(run, parameters, directory))
+      kept += to_json(*plan->second, run) + '\n';
+  if (has_others)
+    set_aside(directory, out);
+  return kept;
+}
+
+void adopt(const std::string& earlier, Study& study) {
+  const auto runs = read_study_runs(earlier);
+  const std::map<std::map<std::string, std::string>, StudyRun> run_of(runs.begin(), runs.end());
+  for (unsigned int i = 0; i < study.plans.size(); ++i)
+    if (const auto run = run_of.find(study.plans[i].identity); run != run_of.end())
+      study.runs[i] = run->second;
+}
+
+/// The directories of the files of runs that are to be made: run-NNN with the number of the run,
+/// or the next one that no earlier run has.
+std::vector<std::string> choose_directories(const Study& study) {
+  std::set<std::string> taken;
+  for (const auto& run : study.runs)
+    if (run)
+      taken.insert(run->files);
+  std::vector<std::string> directories;
+  for (unsigned int i = 0; i < study.runs.size(); ++i) {
+    std::string name;
+    for (unsigned int number = i + 1; !study.runs[i] && name.empty(); ++number) {
+      const std::string digits = std::to_string(number);
+      name = "run-" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
+      if (!taken.insert(name).second)
+        name.clear();
+    }
+    directories.push_back(name);
+  }
+  return directories;
+}
+
+void write_runs(const Parameters& parameters, const fs::path& directory, const Study& study) {
+  std::string lines;
+  for (unsigned int i = 0; i < study.runs.size(); ++i)
+    if (study.runs[i])
+      lines += to_json(study.plans[i], *study.runs[i]) + '\n';
+  write_file(directory / "study.jsonl", lines);
+  write_file(directory / "study.csv", study_csv(study));
   if (is_input(parameters, directory / "parameters.prm"))
-    throw BadInput(refusal(parameters.settings, "Output", "Directory",
-                           "the parameters of the study would replace the file that was read; "
-                           "choose another directory"));
-  // In this order: rows beside the parameters of another study would be taken for its own.
-  const auto table = directory / "study.csv", kept = directory / "study-before.csv";
-  std::error_code error;
-  if (std::filesystem::exists(table, error)) {
-    std::filesystem::rename(table, kept, error);
-    progress << "Note: study.csv is of other parameters, and kept as study-before.csv\n";
-  }
-  if (error)
-    throw NotWritten(table.string() + " could not be moved: " + error.message());
-  write_file(directory / "parameters.prm", own);
-  return {};
+    return;
+  std::ostringstream text, own_text;
+  text << std::ifstream(directory / "parameters.prm").rdbuf();
+  write_parameters(own_text, parameters);
+  if (text.str() != own_text.str())
+    write_file(directory / "parameters.prm", own_text.str());
 }
 
-/// Writes study.csv, and parameters.prm where the directory has been removed.
-void write_runs(const Parameters& parameters, const std::filesystem::path& directory,
-                const std::vector<StudyRun>& runs) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(directory / "parameters.prm", ignored))
-    write_file(directory / "parameters.prm", parameters_text(parameters));
-  write_file(directory / "study.csv", study_csv(runs));
-}
-
-/// The rows of a study in their order, those of this call and of earlier ones.
-class Rows {
-public:
-  Rows(const Parameters& parameters, const std::vector<RunPlan>& plans,
-       const std::filesystem::path& directory, std::ostream& progress, bool writes)
-      : parameters(parameters), plans(plans), directory(directory), progress(progress),
-        writes(writes) {}
-
-  void announce(const char* remark = "") const { announce(rows.size(), remark); }
-
-  void announce(std::size_t number, const char* remark = "") const {
-    const RunPlan& plan = plans[number];
-    progress << "run " << number + 1 << " of " << plans.size() << ':';
-    if (!plan.scene.empty())
-      progress << "  " << plan.scene;
-    for (const Setting& setting : plan.varied)
-      progress << "  " << setting.path() << " = " << setting.value;
-    progress << remark << std::endl;
-  }
-
-  /// Appends what has been found before.
-  void adopt(StudyRun run) {
-    const RunPlan& plan = plans[rows.size()];
-    run.scene = plan.scene;
-    run.settings = plan.varied;
-    if (!parameters.study.published_steps.empty())
-      run.published_steps = parameters.study.published_steps[rows.size()];
-    rows.push_back(std::move(run));
-  }
-
-  /// Appends a run that has been made, and brings study.csv up to date.
-  void add(StudyRun run) {
-    if (!run.failure.empty())
-      progress << "run " << rows.size() + 1 << " is not solved: " << run.failure << std::endl;
-    adopt(std::move(run));
-    if (writes)
-      write_runs(parameters, directory, rows);
-  }
-
-  std::size_t size() const { return rows.size(); }
-
-  /// The study as it is; where @p is_interrupted it lacks runs. @throws Interrupted without a row.
-  Study end(bool is_interrupted) && {
-    if (!is_interrupted)
-      return {std::move(rows), ""};
-    const std::string shortfall = "interrupted after " + std::to_string(rows.size()) + " of " +
-                                  std::to_string(plans.size()) +
-                                  " runs; the same command goes on with the others";
-    if (rows.empty())
-      throw Interrupted("interrupted before the first run was made");
-    return {std::move(rows), shortfall};
-  }
-
-private:
-  const Parameters& parameters;
-  const std::vector<RunPlan>& plans;
-  const std::filesystem::path& directory;
-  std::ostream& progress;
-  const bool writes;
-  std::vector<StudyRun> rows;
-};
-
-/// All processes make each run. False when the user has interrupted it.
-bool make_one_by_one(const std::vector<RunPlan>& plans, MPI_Comm communicator, Rows& rows) {
-  StudyBench bench(plans, communicator);
-  while (rows.size() < plans.size()) {
-    rows.announce();
+/// Makes the runs of these numbers, by all processes together. False when the user has interrupted
+/// it.
+bool make_together(StudyBench& bench, const Study& study, const std::vector<unsigned int>& numbers,
+                   const std::vector<std::string>& directories,
+                   const std::function<void(unsigned int, StudyRun)>& add) {
+  for (const unsigned int number : numbers)
     try {
-      rows.add(bench.make(plans[rows.size()]));
+      add(number, bench.make(study.plans[number], directories[number]));
     } catch (const Interrupted&) {
       return false;
     }
-  }
   return true;
 }
 
-/// Groups of processes make runs at the same time. False when the user has interrupted it.
-bool make_in_groups(const std::vector<RunPlan>& plans, unsigned int group_size,
-                    MPI_Comm communicator, Rows& rows) {
-  const std::size_t first = rows.size();
-  // Rows are in the order of the study, whichever run is ready first.
-  std::map<std::size_t, StudyRun> made;
-  bool is_interrupted = false;
-  const Foreman foreman = {[&](unsigned int task) { rows.announce(first + task); },
-                           [&](unsigned int task, const std::string& csv) {
-                             auto runs = read_study_csv(csv);
-                             is_interrupted = is_interrupted ||
-                                              rollwave::is_interrupted(MPI_COMM_SELF) ||
-                                              runs.empty();
-                             if (!runs.empty())
-                               made[first + task] = std::move(runs.front());
-                             for (auto next = made.find(rows.size()); next != made.end();
-                                  next = made.find(rows.size())) {
-                               rows.add(std::move(next->second));
-                               made.erase(next);
-                             }
-                             return !is_interrupted;
-                           }};
+/// Makes the runs of these numbers in groups of processes at the same time. False when the user has
+/// interrupted it.
+bool make_in_groups(const std::function<StudyBench(MPI_Comm)>& make_bench, unsigned int group_size,
+                    MPI_Comm communicator, const Study& study,
+                    const std::vector<unsigned int>& numbers,
+                    const std::vector<std::string>& directories,
+                    const std::function<void(unsigned int, StudyRun)>& add) {
+  bool has_interrupted = false;
   std::optional<StudyBench> bench;
-  farm_out(communicator, group_size, plans.size() - first, foreman,
-           [&](unsigned int task, MPI_Comm group) {
-             if (!bench)
-               bench.emplace(plans, group);
-             try {
-               return study_csv({bench->make(plans[first + task])});
-             } catch (const Interrupted&) {
-               return std::string(); // which tells
-             }
-           });
-  return !is_interrupted;
+  farm_out(
+      communicator, group_size, numbers.size(),
+      [&](unsigned int task, const std::string& line) {
+        auto runs = read_study_runs(line);
+        has_interrupted = has_interrupted || is_interrupted(MPI_COMM_SELF) || runs.empty();
+        if (!runs.empty())
+          add(numbers[task], std::move(runs.front().second));
+        return !has_interrupted;
+      },
+      [&](unsigned int task, MPI_Comm group) {
+        if (!bench)
+          bench.emplace(make_bench(group));
+        const unsigned int number = numbers[task];
+        try {
+          const RunPlan& plan = study.plans[number];
+          return to_json(plan, bench->make(plan, directories[number]));
+        } catch (const Interrupted&) {
+          return std::string(); // which tells
+        }
+      });
+  return !has_interrupted;
 }
 
 } // namespace
 
-Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
-                std::ostream& progress, MPI_Comm communicator) {
-  const std::vector<RunPlan> plans = plan_runs(parameters);
-  const auto& published = parameters.study.published_steps;
-  if (!published.empty() && published.size() != plans.size())
-    throw BadInput(refusal(parameters.settings, "Study", "Published steps",
-                           "there are " + std::to_string(published.size()) + " entries for " +
-                               std::to_string(plans.size()) + " runs"));
-  const unsigned int group_size = parameters.study.processes_per_scene;
-  const bool is_farmed = group_size > 0 && !is_alone(communicator);
-  if (is_farmed && group_size >= count_processes(communicator))
+Study run_study(const Parameters& parameters, const fs::path& directory, std::ostream& out,
+                MPI_Comm communicator) {
+  const unsigned int n_processes = count_processes(communicator),
+                     group_size = parameters.study.processes_per_scene;
+  const bool is_farmed = group_size > 0 && n_processes > 1;
+  if (is_farmed && group_size >= n_processes)
     throw BadInput(refusal(parameters.settings, "Study", "Processes per scene",
                            "one process hands out the scenes, so that there must be more than "
                            "these"));
-  // What is refused is refused before anything is written.
-  for (const RunPlan& plan : plans)
-    try {
-      make_scene(plan.parameters);
-      check_simulation(plan.parameters, is_farmed ? group_size : count_processes(communicator));
-    } catch (const BadValue& value) {
-      throw BadInput(refusal(plan.parameters.settings, value));
-    }
-
-  const bool is_first = process_number(communicator) == 0;
-  const std::string earlier = share_text(
-      communicator, is_first ? claim_directory(parameters, directory, progress) : std::string());
-  Rows rows(parameters, plans, directory, progress, is_first);
-  std::vector<StudyRun> earlier_runs = read_study_csv(earlier);
-  for (StudyRun& run : earlier_runs) {
-    rows.announce("  (done before)");
-    rows.adopt(std::move(run));
+  Study study;
+  study.plans = plan_runs(parameters, is_farmed ? group_size : n_processes);
+  study.runs.resize(study.plans.size());
+  study.has_true_errors = parameters.study.true_errors;
+  unsigned int place = 0;
+  for (const Variation& variation : parameters.study.vary) {
+    study.first_keys.push_back(place);
+    place += variation.front().size();
   }
-  const bool is_complete = is_farmed ? make_in_groups(plans, group_size, communicator, rows)
-                                     : make_one_by_one(plans, communicator, rows);
-  return std::move(rows).end(!is_complete);
+  const bool is_first = process_number(communicator) == 0;
+  adopt(share_text(communicator, is_first ? earlier_runs(parameters, directory, study.plans, out)
+                                          : std::string()),
+        study);
+  const StudyTable table(study);
+  const auto directories = parameters.study.files_of_each_run.empty()
+                               ? std::vector<std::string>(study.runs.size())
+                               : choose_directories(study);
+  std::vector<unsigned int> numbers;
+  out << table.header();
+  for (unsigned int i = 0; i < study.runs.size(); ++i)
+    if (study.runs[i])
+      out << table.row(i, "done before");
+    else
+      numbers.push_back(i);
+  out << std::flush;
+  const auto add = [&](unsigned int number, StudyRun run) {
+    study.runs[number] = std::move(run);
+    out << table.row(number) << std::flush;
+    if (is_first)
+      write_runs(parameters, directory, study);
+  };
+  if (is_first && numbers.size() < study.runs.size())
+    write_runs(parameters, directory, study);
+  const auto make_bench = [&](MPI_Comm group) {
+    return StudyBench(study.plans, parameters, directory, group);
+  };
+  bool is_complete = true;
+  if (is_farmed)
+    is_complete =
+        make_in_groups(make_bench, group_size, communicator, study, numbers, directories, add);
+  else {
+    StudyBench bench = make_bench(communicator);
+    is_complete = make_together(bench, study, numbers, directories, add);
+  }
+  if (!is_complete) {
+    const auto n_made = std::count_if(study.runs.begin(), study.runs.end(),
+                                      [](const auto& run) { return run.has_value(); });
+    if (n_made == 0)
+      throw Interrupted("interrupted before the first run was made");
+    study.shortfall = "interrupted after " + std::to_string(n_made) + " of " +
+                      std::to_string(study.runs.size()) +
+                      " runs; the same command goes on with the others";
+  }
+  return study;
 }
 
 } // namespace rollwave

@@ -1,292 +1,234 @@
 #include "rollwave/study/study_table.h"
 
-#include "rollwave/base/atomic_file.h"
-#include "rollwave/base/text.h"
-#include "rollwave/output/screen_report.h"
-#include "rollwave/study/study_plot.h"
-
-#include <deal.II/base/table_handler.h>
+#include "rollwave/adapt/marking.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
-#include <optional>
+#include <cctype>
+#include <iomanip>
+#include <map>
 #include <ostream>
-#include <set>
 #include <sstream>
 
 namespace rollwave {
 
-using namespace dealii;
-
 namespace {
 
-bool any(const std::vector<StudyRun>& runs, bool (*has)(const StudyRun&)) {
-  return std::any_of(runs.begin(), runs.end(), has);
-}
+constexpr unsigned int widest_table = 100, widest_outcome = 11;
+constexpr unsigned int widest_text = 24, narrowest_text = 4;
 
-bool has_published_steps(const StudyRun& run) {
-  return run.published_steps.has_value();
-}
-bool has_certificate(const StudyRun& run) {
-  return run.figure("certified_relative").has_value();
-}
-bool has_linear_iterations(const StudyRun& run) {
-  return run.figure("linear_iterations").value_or(0) > 0;
-}
-bool has_failure(const StudyRun& run) {
-  return !run.failure.empty();
-}
-bool has_scene(const StudyRun& run) {
-  return !run.scene.empty();
-}
-bool has_errors(const StudyRun& run) {
-  return run.figure("error_relative").has_value();
-}
-
-/// The scene and what was varied, as text.
-std::string name_of(const StudyRun& run) {
-  const std::string curve = run.curve();
-  if (run.settings.empty())
-    return curve;
-  const Setting& last = run.settings.back();
-  return curve + (curve.empty() ? "" : ", ") + last.key + " " + last.value;
-}
-
-std::string text_of(double value, int digits) {
+std::string text_of(const std::optional<double>& value, int digits) {
   std::ostringstream text;
   text.precision(digits);
-  text << value;
-  return text.str();
+  if (value)
+    text << *value;
+  return value ? text.str() : "-";
 }
 
-/// A figure as text, "-" where there is none.
-std::string text_of(const std::optional<double>& value, int digits) {
-  return value ? text_of(*value, digits) : "-";
+std::vector<std::string> words_of(const std::string& title) {
+  return split(title, ' ');
 }
 
-/// log(e / e') / log(h / h') for two runs of one curve, "-" where there is none.
-std::string observed_order(const StudyRun& before, const StudyRun& run, const std::string& error) {
-  if (!before.figure(error) || !run.figure(error) || before.curve() != run.curve() ||
-      !run.is_of_meshes() || before.figure("dofs") == run.figure("dofs"))
-    return "-";
-  const double errors = *before.figure(error) / *run.figure(error);
-  const double unknowns = *run.figure("dofs") / *before.figure("dofs");
-  return text_of(2 * std::log(errors) / std::log(unknowns), 3);
+/// @p text in a column.
+std::string aligned(std::string text, unsigned int width, bool is_left) {
+  if (text.size() > width)
+    text = text.substr(0, width - 2) + "..";
+  const std::string blanks(width - text.size(), ' ');
+  return is_left ? text + blanks : blanks + text;
 }
 
-TableHandler make_table(const std::vector<StudyRun>& runs) {
-  TableHandler table;
-  const bool with_errors = any(runs, has_errors);
-  const bool with_scenes = any(runs, has_scene);
-  const bool with_published = any(runs, has_published_steps);
-  const bool with_iterations = any(runs, has_linear_iterations);
-  const bool with_certificate = any(runs, has_certificate);
-  const bool with_outcome = with_scenes || any(runs, has_failure);
-  for (unsigned int i = 0; i < runs.size(); ++i) {
-    const StudyRun& run = runs[i];
-    if (with_scenes)
-      table.add_value("scene", run.scene);
-    for (const Setting& setting : run.settings)
-      table.add_value(setting.key, setting.value);
-    const auto add = [&](const std::string& column, const std::string& figure, int digits) {
-      table.add_value(column, text_of(run.figure(figure), digits));
-    };
-    add("unknowns", "dofs", 9);
-    add("steps", "contact_steps", 9);
-    if (with_iterations)
-      add("linear iterations", "linear_iterations", 9);
-    if (with_published)
-      table.add_value("published",
-                      run.published_steps ? std::to_string(*run.published_steps) : "-");
-    if (with_scenes) {
-      add("F", "force", 9);
-      add("J", "energy", 9);
-      if (with_errors)
-        add("energy norm", "error_relative", 3);
-    } else if (with_errors) {
-      const auto add_error = [&](const std::string& column, const std::string& figure) {
-        add(column, figure, 3);
-        table.add_value(column + " order",
-                        i > 0 ? observed_order(runs[i - 1], run, figure) : std::string("-"));
-      };
-      add_error("energy norm", "error_relative");
-      add_error("L2 norm", "error_l2_norm");
-      add_error("pressure", "error_pressure");
-      add_error("F", "error_force");
-      add_error("J", "error_energy");
-      add("half-width", "error_half_width", 3);
-    } else {
-      add("F", "force", 9);
-      add("J", "energy", 9);
-      add("half-width", "half_width", 9);
-    }
-    if (with_certificate) {
-      add("certified", "certified_relative", 3);
-      if (with_errors) {
-        add("effectivity", "effectivity", 3);
-        add("bound/error", "bound_over_error", 3);
-      }
-    }
-    if (with_scenes) {
-      add("residual", "residual", 2);
-      add("round-off", "round_off", 2);
-    }
-    if (with_outcome)
-      table.add_value("outcome", std::string(run.failure.empty() ? "solved" : "not solved"));
-    add("seconds", "seconds", 3);
+std::string without_blanks_at_end(const std::string& line) {
+  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+}
+
+/// Says each text once, with the runs that it holds for: texts that differ in their numbers only
+/// count as the same.
+void print_once(std::ostream& out, const std::string& what,
+                const std::vector<std::pair<unsigned int, std::string>>& texts,
+                unsigned int n_runs) {
+  struct Kind {
+    unsigned int first, count;
+    std::string text;
+  };
+  std::map<std::string, Kind> kinds;
+  for (const auto& [run, text] : texts) {
+    std::string words = text;
+    words.erase(
+        std::remove_if(words.begin(), words.end(),
+                       [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; }),
+        words.end());
+    ++kinds.try_emplace(words, Kind{run, 0, text}).first->second.count;
   }
-  return table;
+  for (const auto& [words, kind] : kinds)
+    out << what << ", " << kind.count << " of " << n_runs << " runs"
+        << (kind.count > 1 ? ", such as run " : ", run ") << kind.first + 1 << ": " << kind.text
+        << '\n';
 }
 
-/// The slope of log(error) over log(h), h ~ unknowns^(-1/2), through @p runs by least squares.
-double fitted_order(const std::vector<const StudyRun*>& runs) {
-  double x_mean = 0, y_mean = 0, xx = 0, xy = 0;
-  const auto x = [](const StudyRun& run) { return -std::log(*run.figure("dofs")) / 2; };
-  const auto y = [](const StudyRun& run) { return std::log(*run.figure("error_relative")); };
-  for (const StudyRun* const run : runs) {
-    x_mean += x(*run) / runs.size();
-    y_mean += y(*run) / runs.size();
-  }
-  for (const StudyRun* const run : runs) {
-    xx += (x(*run) - x_mean) * (x(*run) - x_mean);
-    xy += (x(*run) - x_mean) * (y(*run) - y_mean);
-  }
-  return xy / xx;
-}
-
-/// For each curve the order over its last four runs, three refinements, beside the expected one.
-void print_orders(std::ostream& out, const std::vector<StudyRun>& runs) {
-  for (unsigned int first = 0; first < runs.size();) {
-    unsigned int next = first;
-    std::vector<const StudyRun*> curve;
-    for (; next < runs.size() && runs[next].curve() == runs[first].curve(); ++next)
-      if (has_errors(runs[next]) &&
-          (curve.empty() || curve.back()->figure("dofs") != runs[next].figure("dofs")))
-        curve.push_back(&runs[next]);
-    if (curve.size() >= 4 && runs[first].is_of_meshes()) {
-      curve.erase(curve.begin(), curve.end() - 4);
-      const std::string name = runs[first].curve();
-      out << "Order of the energy norm in h" << (name.empty() ? "" : ", ") << name << ": fitted "
-          << text_of(fitted_order(curve), 3) << " over the last three refinements, expected "
-          << text_of(curve.back()->figure("expected_order"), 3) << '\n';
-    }
-    first = next;
-  }
-}
-
-/// The runs with the user's words in TeX.
-std::vector<StudyRun> runs_in_tex(std::vector<StudyRun> runs) {
-  for (StudyRun& run : runs) {
-    run.scene = in_tex(run.scene);
-    for (Setting& setting : run.settings)
-      setting.value = in_tex(setting.value);
-  }
-  return runs;
-}
-
-std::optional<double> number_of(const std::string& text) {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  return *end == '\0' ? std::optional(number) : std::nullopt;
+bool any(const Study& study, const std::function<bool(const RunPlan&)>& is) {
+  return std::any_of(study.plans.begin(), study.plans.end(), is);
 }
 
 } // namespace
 
-void print_study(std::ostream& out, const std::vector<StudyRun>& runs) {
-  std::set<std::string> references;
-  for (const StudyRun& run : runs)
-    if (has_errors(run))
-      references.insert(run.reference);
-  for (const std::string& reference : references)
-    out << "Errors against " << reference << ": energy norm relative, the others absolute.\n";
-  if (any(runs, has_certificate))
-    out << "Certified: the guaranteed bound of the relative error in the energy norm of the "
-           "feasible displacement.\n";
-  print_table(out, make_table(runs));
-  for (const StudyRun& run : runs)
-    if (has_failure(run))
-      out << "Not solved, " << name_of(run) << ": " << run.failure << '\n';
-  for (const StudyRun& run : runs)
-    if (!run.remarks.empty())
-      out << "Note, " << name_of(run) << ": " << run.remarks << '\n';
-  print_orders(out, runs);
+StudyTable::StudyTable(const Study& study) : study(study), families(find_families(study)) {
+  family_of.resize(study.plans.size());
+  for (unsigned int i = 0; i < families.size(); ++i)
+    for (const unsigned int run : families[i].runs)
+      family_of[run] = i;
+  const auto figure = [&study](const std::string& name, int digits) {
+    return [&study, name, digits](unsigned int run) {
+      return text_of(study.figure(run, name), digits);
+    };
+  };
+  add("run", 4, [](unsigned int run) { return std::to_string(run + 1); });
+  add_settings();
+  const bool is_adaptive =
+      any(study, [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
+  if (is_adaptive)
+    add("N", 9, figure("dofs", 9));
+  else
+    add("h", 8, figure("h_max", 3));
+  add("steps", 5, figure("contact_steps", 9));
+  if (any(study, [](const RunPlan& plan) { return plan.published_steps.has_value(); }))
+    add("published", 9, [&study](unsigned int run) {
+      const auto& steps = study.plans[run].published_steps;
+      return steps ? std::to_string(*steps) : std::string("-");
+    });
+  const bool has_certificate =
+      any(study, [](const RunPlan& plan) { return plan.parameters.certificate.error_bound; });
+  if (study.has_true_errors)
+    add("error", 8, figure("error_relative", 3));
+  if (has_certificate)
+    add("certified", 9, figure("certified_relative", 3));
+  if ((study.has_true_errors || has_certificate) && families.size() < study.plans.size())
+    add("order", 6, [this](unsigned int run) {
+      return text_of(observed_order(this->study, families[family_of[run]], run), 3);
+    });
+  add("F", 14, figure("force", 9));
+  add("seconds", 8, figure("seconds", 3));
+  make_narrow();
 }
 
-WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
-                         const std::vector<StudyRun>& runs) {
-  WrittenFiles written;
-  const auto add = [&](const std::string& name, const std::string& content) {
-    write_file(directory / name, content);
-    written.files.push_back(directory / name);
-  };
-  written.files.push_back(directory / "study.csv");
-  written.files.push_back(directory / "parameters.prm");
-  std::ostringstream table, tex;
-  print_study(table, runs);
-  add("study.txt", table.str());
-  make_table(runs_in_tex(runs)).write_tex(tex, /*with_header=*/false);
-  add("study.tex", tex.str());
-  const auto is_solved = [](const StudyRun& run) { return run.is_solved(); };
-  if (!parameters.wants(OutputFile::plot) || std::none_of(runs.begin(), runs.end(), is_solved))
-    return written;
+void StudyTable::add(const std::string& title, unsigned int width,
+                     const std::function<std::string(unsigned int run)>& cell) {
+  const bool is_text = width == 0; // whose width is that of its cells
+  for (const std::string& word : words_of(title))
+    width = std::max<unsigned int>(width, word.size());
+  for (unsigned int run = 0; is_text && run < study.plans.size(); ++run)
+    width = std::max<unsigned int>(width, cell(run).size());
+  columns.push_back({title, is_text, std::min(width, widest_text), cell});
+}
 
-  const auto add_plot = [&](const std::string& name, const StudyPlot& plot) {
-    if (const auto [svg, failure] = plot_study(runs, plot).take(); failure.empty())
-      add(name, svg);
-    else
-      written.remarks.push_back(name + " was not drawn: " + failure);
-  };
-  const auto figure = [](const std::string& name) {
-    return RunValue([name](const StudyRun& run) { return run.figure(name); });
-  };
-  const RunValue published = [](const StudyRun& run) {
-    return run.published_steps ? std::optional<double>(*run.published_steps) : std::nullopt;
-  };
-  const RunValue varied = [](const StudyRun& run) {
-    return run.settings.empty() ? std::nullopt : number_of(run.settings.back().value);
-  };
-  const RunValue steps = figure("contact_steps");
-  if (std::all_of(runs.begin(), runs.end(), [&](const auto& run) { return varied(run); })) {
-    const Setting& last = runs.front().settings.back();
-    const bool is_of_scenes = last.section == "Cylinder" || last.section == "Road";
-    add_plot("study.svg", {last.path(),
-                           is_of_scenes ? "contact force F" : "contact steps",
-                           varied,
-                           is_of_scenes ? figure("force") : steps,
-                           any(runs, has_published_steps) ? published : RunValue(),
-                           false,
-                           !is_of_scenes,
-                           {}});
-  }
+void StudyTable::add_settings() {
+  if (!study.plans.front().scene.empty())
+    add("scene", 0, [this](unsigned int run) { return study.plans[run].scene; });
+  for (unsigned int k = 0; k < study.plans.front().varied.size(); ++k)
+    add(study.plans.front().varied[k].key, 0,
+        [this, k](unsigned int run) { return study.plans[run].varied[k].value; });
+}
 
-  if (any(runs, has_errors)) {
-    const RunValue error = figure("error_relative");
-    const RunValue unknowns = figure("dofs");
-    const std::string label = "relative error in the energy norm";
-    std::set<double> orders;
-    for (const StudyRun& run : runs)
-      if (has_errors(run))
-        orders.insert(*run.figure("expected_order"));
-    std::vector<double> over_h(orders.begin(), orders.end()), over_unknowns;
-    for (const double order : orders)
-      over_unknowns.push_back(-order / 2);
-    add_plot("study-h.svg", {"h", label, figure("h_max"), error, {}, true, true, over_h});
-    add_plot("study-unknowns.svg",
-             {"unknowns", label, unknowns, error, {}, true, true, over_unknowns});
-    add_plot("study-time.svg", {"seconds", label, figure("seconds"), error, {}, true, true, {}});
-    add_plot("study-steps.svg", {"unknowns", "contact steps", unknowns, steps, {}, true, true, {}});
-    if (any(runs, has_linear_iterations))
-      add_plot("study-iterations.svg", {"unknowns",
-                                        "linear iterations",
-                                        unknowns,
-                                        figure("linear_iterations"),
-                                        {},
-                                        true,
-                                        true,
-                                        {}});
+/// Cuts texts, and leaves the first keys out where that does not suffice.
+void StudyTable::make_narrow() {
+  const auto width = [this] {
+    unsigned int sum = widest_outcome;
+    for (const Column& column : columns)
+      sum += column.width + 2;
+    return sum;
+  };
+  for (unsigned int most = widest_text; width() > widest_table && most >= narrowest_text; --most)
+    for (Column& column : columns)
+      if (column.is_text)
+        column.width = std::min(column.width, most);
+  while (width() > widest_table)
+    columns.erase(columns.begin() + 1);
+}
+
+std::string StudyTable::header() const {
+  unsigned int n_lines = 0;
+  for (const Column& column : columns)
+    n_lines = std::max<unsigned int>(n_lines, words_of(column.title).size());
+  std::string text;
+  for (unsigned int line = 0; line < n_lines; ++line) {
+    std::string cells;
+    for (const Column& column : columns) {
+      const auto words = words_of(column.title);
+      const unsigned int n_above = n_lines - words.size();
+      cells +=
+          aligned(line < n_above ? "" : words[line - n_above], column.width, column.is_text) + "  ";
+    }
+    text += without_blanks_at_end(cells);
   }
-  return written;
+  return text;
+}
+
+std::string StudyTable::row(unsigned int run, const std::string& outcome) const {
+  std::string cells;
+  for (const Column& column : columns)
+    cells += aligned(column.cell(run), column.width, column.is_text) + "  ";
+  const StudyRun& made = *study.runs[run];
+  return without_blanks_at_end(cells + (made.failure.empty() ? outcome
+                                        : made.is_solved()   ? "falls short"
+                                                             : "not solved"));
+}
+
+std::string StudyTable::tex() const {
+  std::string format, titles, rows;
+  for (const Column& column : columns) {
+    format += column.is_text ? 'l' : 'r';
+    titles += (titles.empty() ? "" : " & ") + in_tex(column.title);
+  }
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run]) {
+      std::string cells;
+      for (const Column& column : columns)
+        cells += (cells.empty() ? "" : " & ") +
+                 in_tex(trimmed(aligned(column.cell(run), column.width, false)));
+      rows += cells + " \\\\\n";
+    }
+  return "\\documentclass{article}\n\\usepackage[margin=15mm]{geometry}\n\\usepackage{longtable}\n"
+         "\\begin{document}\n\\footnotesize\\setlength{\\tabcolsep}{3pt}\n\\begin{longtable}{" +
+         format + "}\n\\hline\n" + titles + " \\\\\n\\hline\\endhead\n" + rows +
+         "\\hline\n\\end{longtable}\n\\end{document}\n";
+}
+
+void print_study(std::ostream& out, const Study& study) {
+  const StudyTable table(study);
+  out << table.header();
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run])
+      out << table.row(run);
+  print_study_notes(out, study);
+}
+
+void print_study_notes(std::ostream& out, const Study& study) {
+  std::vector<std::pair<unsigned int, std::string>> failures, shortfalls, remarks, shared;
+  std::string reference;
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (const auto& made = study.runs[run]) {
+      if (!made->failure.empty())
+        (made->is_solved() ? shortfalls : failures).emplace_back(run, made->failure);
+      for (const std::string& remark : made->remarks)
+        remarks.emplace_back(run, remark);
+      if (!made->shared.empty())
+        shared.emplace_back(run, "its seconds are without what it shares with the run before: " +
+                                     made->shared);
+      reference = made->reference.empty() ? reference : made->reference;
+    }
+  const unsigned int n_runs = study.runs.size();
+  const bool is_certified =
+      any(study, [](const RunPlan& plan) { return plan.parameters.certificate.error_bound; });
+  out << "\nsteps: of the contact iteration"
+      << (study.has_true_errors ? "; error: relative, in the energy norm" : "")
+      << (is_certified ? "; certified: guaranteed bound of the relative error in the energy norm"
+                       : "")
+      << ". The rest is in study.csv.\n";
+  if (!reference.empty())
+    out << "Errors against " << reference << ".\n";
+  print_once(out, "Not solved", failures, n_runs);
+  print_once(out, "Falls short", shortfalls, n_runs);
+  print_once(out, "Note", remarks, n_runs);
+  print_once(out, "Note", shared, n_runs);
+  report_orders(out, study);
 }
 
 } // namespace rollwave

@@ -29,6 +29,9 @@ double to_number(const std::string& text);
 /// @p text as a whole number from @p least to @p most. @throws std::invalid_argument otherwise.
 unsigned int to_count(const std::string& text, unsigned int least, unsigned int most);
 
+/// The shortest text that is read back as @p number.
+std::string shortest_text(double number);
+
 /// @p text as TeX sets it.
 std::string in_tex(const std::string& text);
 

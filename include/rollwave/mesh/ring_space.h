@@ -91,6 +91,13 @@ public:
   /// The nodes in [z0, z1], a stretch of surface_nodes().
   const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
 
+  /// The contact nodes of all scenes on the same mesh: those in Scene::shared_zone.
+  const std::vector<SurfaceNode>& candidate_nodes() const { return candidates; }
+
+  /// Makes contact_nodes() those of a scene with the same shared zone. @throws BadInput as the
+  /// constructor.
+  void turn_to(const Scene& scene);
+
   /// The number among contact_nodes() of a node of surface_nodes(), if it is one.
   std::optional<unsigned int> contact_number(unsigned int surface_node) const {
     if (surface_node < first_contact || surface_node >= first_contact + contact.size())
@@ -124,7 +131,6 @@ private:
   struct EdgeNode;
   std::vector<EdgeNode> gather_edges() const;
   void find_surface(const Scene& scene);
-  void find_contact_nodes(const Scene& scene);
   void look_over_cells();
   std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
                                 const FieldVector& field) const;
@@ -140,7 +146,7 @@ private:
   std::pair<double, double> least_and_largest_diameter;
   std::vector<dealii::DoFHandler<2>::active_cell_iterator> at_surface_or_seam;
   std::vector<SurfaceNode> surface;
-  std::vector<SurfaceNode> contact;
+  std::vector<SurfaceNode> contact, candidates;
   unsigned int first_contact = 0; ///< number of its first node in surface
   std::vector<SurfaceFace> faces;
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins

@@ -2,6 +2,7 @@
 #define ROLLWAVE_PARAMETERS_PARAMETERS_H
 
 #include "rollwave/base/errors.h"
+#include "rollwave/parameters/output_options.h"
 #include "rollwave/parameters/prm_reader.h"
 #include "rollwave/parameters/study_options.h"
 #include "rollwave/run/run_options.h"
@@ -14,11 +15,6 @@
 
 namespace rollwave {
 
-enum class OutputFile { summary, contact, parameters, solution, surface, plot };
-
-/// The cells of solution.vtu for elements of degree 2 and more.
-enum class CellKind { high_order, linear };
-
 /**
  * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
  * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
@@ -26,11 +22,7 @@ enum class CellKind { high_order, linear };
 struct Parameters : RunOptions {
   StudyOptions study;
 
-  struct {
-    std::string directory = "output";
-    std::set<OutputFile> files;
-    CellKind cells = CellKind::high_order;
-  } output;
+  OutputOptions output;
 
   std::filesystem::path file; ///< that was read; never written over
 

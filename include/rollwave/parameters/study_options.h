@@ -1,13 +1,17 @@
 #ifndef ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 #define ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 
+#include "rollwave/parameters/output_options.h"
 #include "rollwave/parameters/prm_reader.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace rollwave {
+
+class Declarations;
 
 /// A scene of a study by its name, with the settings that make it.
 struct NamedScene {
@@ -15,25 +19,22 @@ struct NamedScene {
   std::vector<Setting> settings;
 };
 
+/// The choices for a key, or for keys that move together: one setting for each key.
+using Variation = std::vector<std::vector<Setting>>;
+
 /// Section `Study`.
 struct StudyOptions {
   std::vector<NamedScene> scenes; ///< none: the scene of the file
 
-  /// One list of settings for each varied key; the study runs every combination.
-  std::vector<std::vector<Setting>> vary;
+  std::vector<Variation> vary; ///< the study runs every combination
   std::vector<std::optional<unsigned int>> published_steps;
   bool true_errors = false;
+  std::set<OutputFile> files_of_each_run;
   unsigned int processes_per_scene = 0; ///< 0: all of them
 };
 
-/// `Study/Vary`: one list of settings for each key. @throws std::invalid_argument, BadInput
-std::vector<std::vector<Setting>> parse_vary(const std::string& text);
-
-/// `Study/Scenes`. @throws std::invalid_argument, BadInput
-std::vector<NamedScene> parse_scenes(const std::string& text);
-
-/// `Study/Published steps`, nullopt for "-". @throws std::invalid_argument
-std::vector<std::optional<unsigned int>> parse_counts(const std::string& text);
+/// The keys of the section.
+void declare_study(Declarations& keys, StudyOptions& study);
 
 } // namespace rollwave
 

@@ -107,6 +107,10 @@ struct Scene {
   /// The road at the distance @p c.
   Road road_at(double c) const { return {outer_radius, c, road_curvature}; }
 
+  /// A zone around [z0, z1] that holds those of all scenes on the same mesh, where there are
+  /// several.
+  std::optional<std::pair<double, double>> shared_zone = {};
+
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
 };

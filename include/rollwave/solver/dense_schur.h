@@ -26,6 +26,9 @@ public:
   /// @param factor L, m x m; what lies above the diagonal is not used
   explicit DenseSchur(dealii::FullMatrix<double> factor) : factor(std::move(factor)) {}
 
+  /// m
+  unsigned int size() const { return factor.m(); }
+
   /// Sets u_i of the nodes that are not pinned and N_i of those that are.
   /// @return how many free nodes needed a factorisation
   unsigned int solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,

@@ -5,14 +5,15 @@
 #include "rollwave/solver/dense_schur.h"
 #include "rollwave/solver/sparse_cholesky.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 
 namespace rollwave {
 
 /**
- * The direct kind: one sparse Cholesky factorisation of K with the contact nodes last. The problem
- * on the contact nodes is then dense and small,
+ * The direct kind: one sparse Cholesky factorisation of K with the contact nodes (the candidates)
+ * last. The problem on the contact nodes is then dense and small,
  *
  *     S u_c = g - N_c,   S = L_cc L_cc^T,   g = f_c - K_ci K_ii^-1 f_i = L_cc (L^-1 f)_c,
  *
@@ -39,7 +40,9 @@ private:
 
   const RingSpace& space;
   Work* work = nullptr;
-  std::vector<unsigned int> places;       ///< of the contact nodes among the last unknowns
+  /// The places of the candidates among the last unknowns, and of the contact nodes among them.
+  std::map<dealii::types::global_dof_index, unsigned int> place_of_dof;
+  std::vector<unsigned int> places;
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   std::unique_ptr<SparseCholesky> cholesky;
   std::unique_ptr<DenseSchur> schur;

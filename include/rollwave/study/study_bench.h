@@ -1,33 +1,53 @@
 #ifndef ROLLWAVE_STUDY_STUDY_BENCH_H
 #define ROLLWAVE_STUDY_STUDY_BENCH_H
 
-#include "rollwave/study/study_plan.h"
+#include "rollwave/exact/exact_solution.h"
+#include "rollwave/run/solution.h"
 #include "rollwave/study/study_record.h"
 
 #include <mpi.h>
 
-#include <memory>
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// Makes the runs of a study one after the other on the same processes. They share meshes,
-/// factorisations and exact solutions, where they can.
+/// Makes the runs of a study one after the other on the same processes. Runs on one mesh share it,
+/// and its factors at one speed, unless true errors are asked for: then each is timed in full,
+/// after a run that is not counted.
 class StudyBench {
 public:
-  /// @param plans all runs of the study. Where the zone of contact is left to the program, those
-  /// that share a mesh share the widest zone, in which the roads of the others cannot be touched
-  /// either.
-  StudyBench(const std::vector<RunPlan>& plans, MPI_Comm communicator);
-  ~StudyBench();
+  /// @param study its parameters, whose files of each run go to directories in @p directory
+  StudyBench(const std::vector<RunPlan>& plans, const Parameters& study,
+             const std::filesystem::path& directory, MPI_Comm communicator);
 
-  /// A run, with the reason where it cannot be solved.
-  /// @throws Interrupted also when there is a result that lacks something.
-  StudyRun make(const RunPlan& plan);
+  /// A run, with the reason where it cannot be solved. @p files is the name of the directory of its
+  /// own files. @throws Interrupted also when there is a result that lacks something; NotWritten
+  StudyRun make(const RunPlan& plan, const std::string& files);
 
 private:
-  struct Shared;
-  std::unique_ptr<Shared> shared;
+  /// What runs on one mesh have in common.
+  using MeshKey = std::map<std::string, std::string>;
+
+  void warm_up();
+  void solve(const RunPlan& plan, StudyRun& run);
+  const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
+
+  const std::vector<RunPlan>& plans;
+  const Parameters& study;
+  const std::filesystem::path directory;
+  const MPI_Comm communicator;
+  bool is_warm = false;
+  std::map<MeshKey, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
+  std::optional<MeshKey> last_mesh; ///< that of solution, where it is shared
+  std::optional<Solution> solution;
+  /// By all but the mesh, and by zone and distance.
+  std::map<std::pair<MeshKey, std::array<double, 3>>, std::optional<ExactSolution>> exact_solutions;
 };
 
 } // namespace rollwave

@@ -3,34 +3,40 @@
 
 #include "rollwave/parameters/parameters.h"
 
+#include <functional>
+#include <map>
+#include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
 namespace rollwave {
 
-/// What one run of a study is to do: all that is set, and of that what varies within the scene.
+/// What one run of a study is to do.
 struct RunPlan {
-  std::string scene;
-  std::vector<Setting> varied;
+  std::string scene;           ///< its name in Study/Scenes, empty without
+  std::vector<Setting> varied; ///< one setting for each key of Study/Vary
+  std::optional<unsigned int> published_steps;
   Parameters parameters; ///< without a study
+
+  /// What the run depends on: its settings other than the defaults by path, numbers in their
+  /// shortest form. Runs that have it in common are the same.
+  std::map<std::string, std::string> identity;
 };
 
-/// The runs of a study in their order. @throws BadInput when a setting of one is refused.
-std::vector<RunPlan> plan_runs(const Parameters& parameters);
+/// Every combination of the values in `Study/Vary`, the last key varying fastest, for each of
+/// `Study/Scenes` where there are some.
+/// @throws BadInput when any setting is refused, or `Study/Published steps` does not have one entry
+///         for each run
+std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes);
 
-/// Runs that have this in common can share a mesh.
-inline auto mesh_key(const Parameters& parameters) {
-  const auto& mesh = parameters.mesh;
-  return std::tuple(parameters.cylinder.inner_radius, parameters.cylinder.outer_radius,
-                    parameters.road.contact_zone, mesh.degree, mesh.radial_cells,
-                    mesh.angular_cells, mesh.global_refinements, mesh.adaptive_cycles,
-                    mesh.wanted_relative_error, mesh.indicator, mesh.marking, mesh.marked_fraction,
-                    mesh.most_unknowns, parameters.solver.kind);
-}
+/// A key as a symbol, such as "c", where it has one, or in words.
+std::string symbol(const Setting& setting);
 
-/// What mesh_key() returns.
-using MeshKey = decltype(mesh_key(Parameters()));
+/// A key in words, with its symbol, such as "road distance c".
+std::string words(const Setting& setting);
+
+/// The scene and the settings for which @p is_told, as text: "c = 0.8, degree 2".
+std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told);
 
 } // namespace rollwave
 

@@ -2,30 +2,39 @@
 #define ROLLWAVE_STUDY_STUDY_PLOT_H
 
 #include "rollwave/output/gnuplot.h"
-#include "rollwave/study/study_record.h"
 
-#include <functional>
-#include <optional>
+#include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rollwave {
 
-/// What a run contributes to a plot; nullopt leaves a gap.
-using RunValue = std::function<std::optional<double>(const StudyRun&)>;
+/// Points in x and y, the latter not a number where there is a gap.
+using Points = std::vector<std::pair<double, double>>;
 
-struct StudyPlot {
-  std::string x_label;
-  std::string y_label;
-  RunValue x;
-  RunValue y;
-  RunValue marks; ///< further values shown as open circles; may be empty
-  bool log_x;
-  bool log_y;
-  std::vector<double> slopes; ///< expected powers of x, drawn as dashed lines
+struct Curve {
+  std::string title;
+  Points points;
+  Points marks = {}; ///< further points, shown as open circles
 };
 
-/// One curve for each choice of all keys but the one that varies fastest.
-Drawing plot_study(const std::vector<StudyRun>& runs, const StudyPlot& plot);
+struct Panel {
+  std::string x_label, y_label;
+  std::vector<Curve> curves;
+  bool has_log_x = false, has_log_y = false;
+  std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
+};
+
+/// Evenly chosen curves, where there are more than can be told apart.
+std::vector<Curve> distinct(std::vector<Curve> curves);
+
+/// Panels beside and below each other. They have the same curves, with one legend below them.
+Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels);
+
+/// Values over a grid of x and y as colours with contour lines, in lines of constant x.
+Drawing plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+                 const std::vector<std::vector<std::array<double, 3>>>& lines);
 
 } // namespace rollwave
 

@@ -1,48 +1,66 @@
 #ifndef ROLLWAVE_STUDY_STUDY_RECORD_H
 #define ROLLWAVE_STUDY_STUDY_RECORD_H
 
-#include "rollwave/parameters/parameters.h"
 #include "rollwave/run/result.h"
+#include "rollwave/study/study_plan.h"
 
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// One run of a study: the settings in which it differs from the others, and its figures by name,
-/// as in the columns of study.csv. A run that was not solved has none.
+/// What one run of a study has found.
 struct StudyRun {
-  std::string scene; ///< its name in Study/Scenes, empty without
-  std::vector<Setting> settings;
-  std::optional<unsigned int> published_steps;
-  std::map<std::string, double> figures;
-  std::string reference; ///< what its errors are measured against; empty without errors
-  std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
-  std::string remarks;   ///< those of its Result, with " | " between them
+  /// By name, as in the columns of study.csv, not a number where there is none; without entries
+  /// where it was not solved.
+  std::vector<std::pair<std::string, double>> figures;
+  std::string reference;   ///< what its errors are measured against; empty without errors
+  std::string failure;     ///< why it was not solved, or not to what was wanted; empty where it was
+  bool is_refused = false; ///< whether it is the parameters that fail
+  std::vector<std::string> remarks;
+  std::string shared; ///< what it has from the run before, which its seconds do not count
+  std::string files;  ///< the directory of its own files; empty without
+  std::vector<std::pair<double, double>> pressure; ///< angles and pressures along the contact
 
   bool is_solved() const { return !figures.empty(); }
-
-  /// Whether runs of the curve differ in their meshes.
-  bool is_of_meshes() const { return !settings.empty() && settings.back().section == "Mesh"; }
   std::optional<double> figure(const std::string& name) const;
-
-  /// The scene and the settings but the one that varies fastest, as text: runs that share it make a
-  /// curve.
-  std::string curve() const;
 };
 
-/// The figures of a solved scene, and its peak memory.
-std::map<std::string, double> figures_of(const Result& result);
+/// A study: its runs in their order, nullopt for those that have not been made.
+struct Study {
+  std::vector<RunPlan> plans;
+  std::vector<std::optional<StudyRun>> runs;
+  bool has_true_errors = false; ///< whether they were asked for
+
+  /// The places in RunPlan::varied at which the keys of each part of Study/Vary begin; those of a
+  /// part move together.
+  std::vector<unsigned int> first_keys = {};
+  std::string shortfall = ""; ///< where the user has interrupted it; mostly empty
+
+  std::optional<double> figure(unsigned int run, const std::string& name) const {
+    return runs[run] ? runs[run]->figure(name) : std::nullopt;
+  }
+};
+
+/// The figures of a solved scene with its peak memory, seconds last.
+std::vector<std::pair<std::string, double>> figures_of(const Result& result);
+
+/// The pressure from the node before contact to that behind it, at about a hundred nodes at most.
+std::vector<std::pair<double, double>> pressure_of(const Result& result);
+
+/// A line of study.jsonl: a run with what it was asked to do.
+std::string to_json(const RunPlan& plan, const StudyRun& run);
+
+/// The runs of the lines of study.jsonl, with their RunPlan::identity; lines of another kind are
+/// left out.
+std::vector<std::pair<std::map<std::string, std::string>, StudyRun>>
+read_study_runs(const std::string& text);
 
 /// study.csv: `scene` where there are several, the varied keys, `solved`, `published_steps`,
-/// `reference`, `failure`, the figures in full precision, `remarks`.
-std::string study_csv(const std::vector<StudyRun>& runs);
-
-/// The runs that study_csv() wrote, without their settings and published steps; none where it
-/// has other columns, and none from the first row on that lacks fields or its end.
-std::vector<StudyRun> read_study_csv(const std::string& text);
+/// `reference`, `failure`, `remarks`, `files`, the figures in full precision, `shared`.
+std::string study_csv(const Study& study);
 
 } // namespace rollwave
 

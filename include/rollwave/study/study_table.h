@@ -1,25 +1,54 @@
 #ifndef ROLLWAVE_STUDY_STUDY_TABLE_H
 #define ROLLWAVE_STUDY_STUDY_TABLE_H
 
-#include "rollwave/output/output_directory.h"
+#include "rollwave/study/convergence.h"
 #include "rollwave/study/study_record.h"
 
+#include <functional>
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace rollwave {
 
-/// Prints the runs as a table aligned for reading. With true errors, each has its observed order
-/// beside it: the slope over h from the run before of the same curve, h ~ unknowns^(-1/2).
-void print_study(std::ostream& out, const std::vector<StudyRun>& runs);
+/// A study as a table of at most a hundred letters in width, row by row while it goes on.
+class StudyTable {
+public:
+  explicit StudyTable(const Study& study);
 
-/// Beside study.csv, which run_study() keeps, writes study.txt, study.tex (a LaTeX table) and
-/// plots: study.svg, contact steps over the key that varies fastest, and with true errors
-/// study-h.svg, study-unknowns.svg and study-time.svg, the relative error in the energy norm over
-/// h, unknowns and seconds, and study-steps.svg and study-iterations.svg, contact steps and linear
-/// iterations over unknowns.
-/// @throws NotWritten.
-WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
-                         const std::vector<StudyRun>& runs);
+  std::string header() const;
+
+  /// The row of a run that has been made. @p outcome stands at its end where it is solved.
+  std::string row(unsigned int run, const std::string& outcome = "") const;
+
+  /// All rows as a LaTeX document.
+  std::string tex() const;
+
+private:
+  struct Column {
+    std::string title; ///< its words stand one below the other
+    bool is_text;      ///< which may be cut and stands at the left
+    unsigned int width;
+    std::function<std::string(unsigned int run)> cell;
+  };
+
+  void add(const std::string& title, unsigned int width,
+           const std::function<std::string(unsigned int run)>& cell);
+  void add_settings();
+  void make_narrow();
+
+  const Study& study;
+  const std::vector<Family> families;
+  std::vector<unsigned int> family_of; ///< its number, for each run
+  std::vector<Column> columns;
+};
+
+/// The table with what is to be said to it: failures and remarks once for all runs that have them,
+/// and the orders of errors.
+void print_study(std::ostream& out, const Study& study);
+
+/// The same without the table.
+void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave
 

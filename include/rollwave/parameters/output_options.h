@@ -1,0 +1,27 @@
+#ifndef ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
+#define ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
+
+#include <set>
+#include <string>
+
+namespace rollwave {
+
+enum class OutputFile { summary, contact, parameters, solution, surface, plot };
+
+/// The cells of solution.vtu for elements of degree 2 and more.
+enum class CellKind { high_order, linear };
+
+/// Section `Output`.
+struct OutputOptions {
+  std::string directory = "output";
+  std::set<OutputFile> files;
+  CellKind cells = CellKind::high_order;
+};
+
+/// A list of kinds of files, and parameters. @throws std::invalid_argument for an unknown one,
+/// BadInput for one of earlier versions
+std::set<OutputFile> parse_files(const std::string& text);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef ROLLWAVE_STUDY_STUDY_FILES_H
+#define ROLLWAVE_STUDY_STUDY_FILES_H
+
+#include "rollwave/output/output_directory.h"
+#include "rollwave/study/study_record.h"
+
+#include <filesystem>
+
+namespace rollwave {
+
+/**
+ * Beside study.csv and study.jsonl, which run_study() keeps, writes study.txt (the table),
+ * study.tex (the same as a LaTeX document), study.pvd (the fields of the runs, where they are
+ * written) and plots:
+ *
+ * - study.svg: contact steps over the key that varies fastest, where that is a number,
+ *   study-curves.svg: loads, half-width and peak pressure over it;
+ * - study-profiles.svg: pressures along the surface;
+ * - study-map.svg: the vertical load over two keys;
+ * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
+ *   over h, unknowns and seconds, study-steps.svg and study-iterations.svg: contact steps and
+ *   linear iterations over unknowns.
+ *
+ * @throws NotWritten
+ */
+WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
+                         const Study& study);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,259 @@
+#include "rollwave/study/study_files.h"
+
+#include "rollwave/adapt/marking.h"
+#include "rollwave/base/atomic_file.h"
+#include "rollwave/study/convergence.h"
+#include "rollwave/study/study_plot.h"
+#include "rollwave/study/study_table.h"
+
+#include <deal.II/base/data_out_base.h>
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+double figure_of(const Study& study, unsigned int run, const std::string& name) {
+  return study.figure(run, name).value_or(nothing);
+}
+
+bool any(const Study& study, const std::string& name) {
+  return std::any_of(study.runs.begin(), study.runs.end(),
+                     [&](const auto& run) { return run && run->figure(name).value_or(0) > 0; });
+}
+
+/// The numbers that a key takes in all runs; none where it has a value that is no number.
+std::vector<double> numbers_of(const Study& study, unsigned int key) {
+  std::vector<double> numbers;
+  try {
+    for (const RunPlan& plan : study.plans)
+      numbers.push_back(to_number(plan.varied[key].value));
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+  return numbers;
+}
+
+/// What all runs have in common: scene, method and mesh.
+std::string title_of(const Study& study) {
+  const Parameters& p = study.plans.front().parameters;
+  std::set<std::string> varied;
+  for (const Setting& setting : study.plans.front().varied)
+    varied.insert(setting.path());
+  std::ostringstream text;
+  const auto add = [&](const std::string& path, const std::string& what, const auto& value) {
+    if (varied.count(path) == 0)
+      text << (text.str().empty() ? "" : ", ") << what << value;
+  };
+  if (study.plans.front().scene.empty()) {
+    add("Cylinder/Inner radius", "a = ", p.cylinder.inner_radius);
+    add("Cylinder/Outer radius", "b = ", p.cylinder.outer_radius);
+    add("Cylinder/Angular velocity", "ω = ", p.cylinder.angular_velocity);
+    add("Cylinder/Radial force", "f = ", p.cylinder.radial_force);
+    if (p.road.load)
+      add("Road/Load", "L = ", *p.road.load);
+    else
+      add("Road/Distance", "c = ", p.road.distance);
+    if (p.road.curvature != 0)
+      add("Road/Curvature", "κ = ", p.road.curvature);
+    add("Mesh/Degree", "degree ", p.mesh.degree);
+  }
+  add("Contact/Method", "",
+      p.contact.method == ContactMethod::uzawa ? "Uzawa's method" : "active set");
+  if (most_cycles(p.mesh) > 0)
+    text << ", adaptive";
+  return text.str();
+}
+
+/// For each choice of all keys but those that vary fastest a curve of a figure over the first of
+/// these.
+std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
+                             const std::string& figure, bool has_marks) {
+  std::vector<Curve> curves;
+  for (unsigned int run = 0; run < study.plans.size(); ++run) {
+    const RunPlan& plan = study.plans[run];
+    const Setting* const last = &plan.varied[study.first_keys.back()];
+    const std::string title =
+        label(plan, [last](const Setting& setting) { return &setting < last; });
+    // The keys before them change together with the text.
+    if (curves.empty() || curves.back().title != title)
+      curves.push_back({title, {}, {}});
+    curves.back().points.emplace_back(x[run], figure_of(study, run, figure));
+    if (has_marks)
+      curves.back().marks.emplace_back(x[run], plan.published_steps ? double(*plan.published_steps)
+                                                                    : nothing);
+  }
+  return curves;
+}
+
+Panel panel_over_key(const Study& study, const std::vector<double>& x, const std::string& figure,
+                     const std::string& y_label) {
+  return {words(study.plans.front().varied[study.first_keys.back()]), y_label,
+          distinct(curves_of(study, x, figure, false))};
+}
+
+Panel steps_over_key(const Study& study, const std::vector<double>& x) {
+  const bool has_marks =
+      std::any_of(study.plans.begin(), study.plans.end(),
+                  [](const RunPlan& plan) { return plan.published_steps.has_value(); });
+  return {words(study.plans.front().varied[study.first_keys.back()]), "contact steps",
+          distinct(curves_of(study, x, "contact_steps", has_marks)), false, true};
+}
+
+/// A figure over another for each family of runs that differ in the fineness of their meshes.
+/// @param order_factor slopes over expected orders; 0 for none
+Panel panel_of_families(const Study& study, const std::string& x, const std::string& x_label,
+                        const std::string& y, const std::string& y_label, double order_factor) {
+  Panel panel{x_label, y_label, {}, true, true};
+  std::set<double> slopes;
+  for (const Family& family : find_families(study)) {
+    if (x == "h_max" && (family.is_adaptive || !family.is_cut_alike))
+      continue;
+    Curve curve{family.name, {}};
+    for (const unsigned int run : family.runs) {
+      if (study.figure(run, x) && study.figure(run, y))
+        curve.points.emplace_back(*study.figure(run, x), *study.figure(run, y));
+      if (const auto order = study.figure(run, "expected_order");
+          order && order_factor != 0 && family.is_cut_alike)
+        slopes.insert(order_factor * *order);
+    }
+    std::sort(curve.points.begin(), curve.points.end());
+    if (!curve.points.empty())
+      panel.curves.push_back(std::move(curve));
+  }
+  panel.curves = distinct(std::move(panel.curves));
+  panel.slopes.assign(slopes.begin(), slopes.end());
+  return panel;
+}
+
+Panel profiles(const Study& study) {
+  Panel panel{"angle from the lowest point, z - 3π/2", "contact pressure", {}};
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run] && !study.runs[run]->pressure.empty()) {
+      panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
+      for (const auto& [z, pressure] : study.runs[run]->pressure)
+        panel.curves.back().points.emplace_back(z - 3 * numbers::PI / 2, pressure);
+    }
+  panel.curves = distinct(std::move(panel.curves));
+  return panel;
+}
+
+/// The vertical load over two keys; nullopt unless these alone vary, are of cylinder and road, and
+/// numbers.
+std::optional<Drawing> map_of_load(const Study& study) {
+  if (study.first_keys.size() != 2 || !study.plans.front().scene.empty())
+    return {};
+  const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_keys[1]);
+  const auto& varied = study.plans.front().varied;
+  const auto is_physical = [](const Setting& setting) {
+    return setting.section == "Cylinder" || setting.section == "Road";
+  };
+  if (!std::all_of(varied.begin(), varied.end(), is_physical) || x.empty() || y.empty() ||
+      x.front() == x.back() || y.front() == y.back())
+    return {};
+  std::vector<std::vector<std::array<double, 3>>> lines;
+  for (unsigned int run = 0; run < x.size(); ++run) {
+    if (run == 0 || x[run] != x[run - 1])
+      lines.emplace_back();
+    lines.back().push_back({{x[run], y[run], figure_of(study, run, "vertical_load")}});
+  }
+  return plot_map("vertical load; " + title_of(study), words(varied[0]),
+                  words(varied[study.first_keys[1]]), lines);
+}
+
+/// The plots by their names, being drawn.
+std::vector<std::pair<std::string, Drawing>> draw(const Study& study) {
+  std::vector<std::pair<std::string, Drawing>> drawings;
+  const std::string title = title_of(study);
+  const auto add = [&](const std::string& name, const std::vector<Panel>& panels) {
+    if (!panels.front().curves.empty())
+      drawings.emplace_back(name, plot_panels(title, panels));
+  };
+  const auto x =
+      study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
+  if (!x.empty()) {
+    add("study.svg", {steps_over_key(study, x)});
+    add("study-curves.svg",
+        {panel_over_key(study, x, "force", "contact force F"),
+         panel_over_key(study, x, "vertical_load", "vertical load"),
+         panel_over_key(study, x, "half_width", "half-width of contact (angle)"),
+         panel_over_key(study, x, "peak_pressure", "peak pressure")});
+  }
+  add("study-profiles.svg", {profiles(study)});
+  if (auto map = map_of_load(study))
+    drawings.emplace_back("study-map.svg", std::move(*map));
+  if (any(study, "error_relative") && find_families(study).size() < study.plans.size()) {
+    const std::string error = "error_relative", label = "relative error in the energy norm";
+    add("study-h.svg",
+        {panel_of_families(study, "h_max", "largest diameter of a cell h", error, label, 1)});
+    add("study-unknowns.svg", {panel_of_families(study, "dofs", "unknowns", error, label, -0.5)});
+    add("study-time.svg", {panel_of_families(study, "seconds", "seconds", error, label, 0)});
+    add("study-steps.svg",
+        {panel_of_families(study, "dofs", "unknowns", "contact_steps", "contact steps", 0)});
+    if (any(study, "linear_iterations"))
+      add("study-iterations.svg", {panel_of_families(study, "dofs", "unknowns", "linear_iterations",
+                                                     "linear iterations", 0)});
+  }
+  return drawings;
+}
+
+/// The fields of the runs with the number of the key that varies fastest, or else of the run, as
+/// time.
+std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
+  const auto times =
+      study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
+  std::vector<std::pair<double, std::string>> files;
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    for (const char* const name : {"solution.vtu", "solution.pvtu"})
+      if (study.runs[run] && !study.runs[run]->files.empty() &&
+          std::filesystem::exists(directory / study.runs[run]->files / name))
+        files.emplace_back(times.empty() ? run + 1 : times[run],
+                           study.runs[run]->files + '/' + name);
+  std::ostringstream text;
+  DataOutBase::write_pvd_record(text, files);
+  return text.str();
+}
+
+} // namespace
+
+WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
+                         const Study& study) {
+  WrittenFiles written;
+  for (const char* const name : {"study.csv", "study.jsonl", "parameters.prm"})
+    written.files.push_back(directory / name);
+  const auto add = [&](const std::string& name, const std::string& content) {
+    write_file(directory / name, content);
+    written.files.push_back(directory / name);
+  };
+  std::vector<std::pair<std::string, Drawing>> drawings;
+  if (parameters.wants(OutputFile::plot) &&
+      std::any_of(study.runs.begin(), study.runs.end(),
+                  [](const auto& run) { return run && run->is_solved(); }))
+    drawings = draw(study);
+  std::ostringstream table;
+  print_study(table, study);
+  add("study.txt", table.str());
+  add("study.tex", StudyTable(study).tex());
+  const auto& kinds = parameters.study.files_of_each_run;
+  if (std::count(kinds.begin(), kinds.end(), OutputFile::solution) > 0)
+    add("study.pvd", pvd_of(study, directory));
+  for (auto& [name, drawing] : drawings)
+    if (const auto [svg, failure] = drawing.take(); failure.empty())
+      add(name, svg);
+    else
+      written.remarks.push_back(name + " was not drawn: " + failure);
+  return written;
+}
+
+} // namespace rollwave
