@@ -72,7 +72,7 @@ def number(text):
 def shown(value):
     if not isinstance(value, float):
         return str(value)
-    return str(int(value)) if value == int(value) and abs(value) < 1e9 else f'{value:.3g}'
+    return str(int(value)) if abs(value) < 1e9 and value == int(value) else f'{value:.3g}'
 
 
 def table(titles, rows):
