@@ -24,8 +24,7 @@ arguments = arguments.parse_args()
 root = pathlib.Path(__file__).resolve().parent.parent
 rollwave = pathlib.Path(arguments.rollwave).resolve()
 work = pathlib.Path(tempfile.mkdtemp())
-environment = {**os.environ, 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1',
-               'OMP_NUM_THREADS': '2', 'OPENBLAS_NUM_THREADS': '2'}
+environment = {**os.environ, 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'}
 commands = []  # of the measurement at hand, as a reader would type them
 
 
