@@ -83,7 +83,7 @@ sanitize)
   ;;
 benchmark)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
-  build all build -DBUILD_TESTING=ON
+  build rollwave_benchmark build -DBUILD_TESTING=ON
   exec build/tests/rollwave_benchmark
   ;;
 scaling)

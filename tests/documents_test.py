@@ -11,7 +11,7 @@ import sys
 
 root, rollwave = pathlib.Path(sys.argv[1]), sys.argv[2]
 doc = root / 'doc'
-readme, manual, parameters = root / 'README.md', doc / 'manual.md', doc / 'parameters.md'
+readme, parameters = root / 'README.md', doc / 'parameters.md'
 faults = []
 
 
@@ -68,7 +68,7 @@ for page in (doc / 'theory.md', doc / 'house.md'):
     for name in set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text())) - {'floor/file'}:
         require((root / f'include/rollwave/{name}.h').exists(), f'{page.name}: {name} is not there')
 
-for page in (readme, manual):
+for page in (readme, *own, *cookbook):
     for sentence in re.split(r'[.?!](?:\s|$)', prose(page.read_text())):
         n = len(sentence.split())
         require(n <= 35, f'{page.name}: {n} words in "{" ".join(sentence.split())}"')

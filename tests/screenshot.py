@@ -1,4 +1,8 @@
-"""Draws DIRECTORY/solution.vtu as ParaView would: python3 shot.py DIRECTORY PICTURE.png"""
+#!/usr/bin/env python3
+"""Draws solution.vtu of a directory with surface and road as ParaView would.
+
+Usage: xvfb-run -a screenshot.py DIRECTORY PICTURE.png
+"""
 import sys
 import vtk
 
@@ -50,7 +54,7 @@ def line(name, colour, width):
     renderer.AddActor(actor)
 
 
-line('road.vtu', (0.1, 0.1, 0.1), 4)
+line('road.vtu', (0.1, 0.1, 0.1), 3)
 line('surface.vtu', (0.2, 0.2, 0.2), 2)
 bar = vtk.vtkScalarBarActor()
 bar.SetLookupTable(colours)
@@ -58,6 +62,7 @@ bar.SetTitle('displacement')
 bar.SetNumberOfLabels(5)
 bar.SetLabelFormat('%.2f')
 bar.SetUnconstrainedFontSize(True)
+bar.SetVerticalTitleSeparation(16)
 for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
     text.SetColor(0, 0, 0)
     text.SetFontSize(18)

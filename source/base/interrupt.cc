@@ -16,18 +16,18 @@ volatile std::sig_atomic_t noted = 0;
 volatile std::sig_atomic_t is_told = 0;
 
 extern "C" void note_interrupt(int signal) {
+  const bool was_noted = noted, is_impatient = signal == SIGINT || signal == SIGTERM;
+  noted = 1;
+  if (is_impatient) { // before the message, on which the user may send the next one
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+  }
   constexpr std::string_view message =
       "\nrollwave: interrupted, ends after the step at hand; Ctrl-C or SIGTERM once more ends it "
       "at once\n";
   // SIGXCPU comes every second from then on.
-  const bool is_impatient = signal == SIGINT || signal == SIGTERM;
-  if (is_told && (is_impatient || !noted)) [[maybe_unused]]
+  if (is_told && (is_impatient || !was_noted)) [[maybe_unused]]
     const auto written = write(STDERR_FILENO, message.data(), message.size());
-  noted = 1;
-  if (is_impatient) {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-  }
 }
 
 std::set<int> find_heeded_signals() {
