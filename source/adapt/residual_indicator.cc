@@ -21,7 +21,7 @@ namespace {
 
 /// How often parts of the certified error count that are what they are, since the squares of
 /// residuals are larger than those of the errors they stand for. With 2 certified errors are a
-/// tenth larger, with 50 the true ones are (doc/adaptivity.md).
+/// tenth larger, with 50 the true ones are (doc/decisions.md).
 constexpr double exact_parts_weight = 10;
 
 using SpaceCell = DoFHandler<2>::active_cell_iterator;
