@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 using namespace rollwave;
 
@@ -45,6 +46,37 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
 TEST(Remarks, TellWhenTheModelIsNotMeantForIt) {
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=10"}), "more than the ring is thick"));
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=100"}), "the end of the automatic zone"));
+}
+
+TEST(Remarks, TellWhenTheMeshDoesNotResolveTheContact) {
+  // Exact: F = 7.6e-7, half-width 2.3e-3; the cells are 0.6 long.
+  const auto between = remarks_with({"Cylinder/Inner radius=0.9423", "Cylinder/Angular velocity=1",
+                                     "Cylinder/Radial force=2.13", "Road/Distance=1.00361170949",
+                                     "Road/Contact zone=3.875282589278516, 6.008407101703167",
+                                     "Mesh/Radial cells=1", "Mesh/Angular cells=10"});
+  EXPECT_TRUE(have(between, "the surface passes the road between nodes"));
+  EXPECT_TRUE(have(between, "not resolved"));
+  // Less than two cells.
+  EXPECT_TRUE(have(remarks_with({"Road/Distance=0.995"}), "held by 3 nodes"));
+}
+
+TEST(Remarks, TellWhatTheWantedErrorNeeds) {
+  const auto result_of = [](const std::string& most_unknowns) {
+    const Parameters parameters =
+        with(paper_scenes()[0].parameters(),
+             {"Mesh/Radial cells=3", "Mesh/Angular cells=38", "Mesh/Global refinements=0",
+              "Mesh/Degree=2", "Mesh/Wanted relative error=2e-4", most_unknowns});
+    return simulate(make_scene(parameters), parameters).result;
+  };
+  const Result reached = result_of("Mesh/Most unknowns=100000");
+  ASSERT_TRUE(reached.shortfalls.empty());
+  const std::string text = shortfall_text(result_of("Mesh/Most unknowns=3000"));
+  const std::string before = "0.0002 needs about ";
+  const auto place = text.find(before);
+  ASSERT_NE(place, std::string::npos) << text;
+  const double foretold = std::stod(text.substr(place + before.size()));
+  EXPECT_LT(foretold, 2 * reached.mesh.dofs);
+  EXPECT_GT(foretold, reached.mesh.dofs / 3.);
 }
 
 TEST(Remarks, TellWhenTheBoundSaysNothing) {

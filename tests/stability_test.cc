@@ -1,7 +1,6 @@
 // Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
 #include "manufactured_scene.h"
 #include "rollwave/adapt/marking.h"
-#include "rollwave/adapt/refinement_flags.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
@@ -154,7 +153,7 @@ TEST(Stability, RefinementEndsAtTheFinestLevel) {
     std::vector<double> indicators;
     for (const auto& cell : mesh->active_cell_iterators())
       indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
-    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1, 1e6);
+    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1e6);
   }
   EXPECT_FALSE(is_cut);
   EXPECT_EQ(mesh->n_levels(), 30);

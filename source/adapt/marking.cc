@@ -1,23 +1,17 @@
 #include "rollwave/adapt/marking.h"
 
-#include "rollwave/adapt/refinement_flags.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/scene/scene.h"
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/p4est_wrappers.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
-#include <deal.II/numerics/error_estimator.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <map>
-#include <numeric>
 #include <optional>
-#include <vector>
 
 namespace rollwave {
 
@@ -28,176 +22,166 @@ unsigned int most_cycles(const RefinementOptions& options) {
       options.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
 }
 
-std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field) {
-  Vector<float> indicators(space.dof_handler().get_triangulation().n_active_cells());
-  KellyErrorEstimator<2>::estimate(space.mapping(), space.dof_handler(),
-                                   QGauss<1>(space.dof_handler().get_fe().degree + 1), {}, field,
-                                   indicators);
-  return {indicators.begin(), indicators.end()};
-}
-
-namespace {
-
-/// Flags the cells from the value @p last_marked on. Mirror images have the same indicator but for
-/// round-off, which shall not choose between them.
-void flag(Triangulation<2>& triangulation, const Scene& scene, const Vector<double>& squares,
-          double last_marked) {
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned() && squares(cell->active_cell_index()) >= (1 - 1e-6) * last_marked)
-      cell->set_refine_flag();
-  flag_columns(triangulation, scene);
-}
-
-/// The squares of the own cells.
-std::vector<double> own_squares(const Triangulation<2>& triangulation,
-                                const Vector<double>& squares) {
-  std::vector<double> own;
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      own.push_back(squares(cell->active_cell_index()));
-  return own;
-}
-
-/// The last of the largest values, at most 1, of all processes that add up to @p share in @p
-/// weight: what all from there on weigh. Found by bisection, the same way on one process and on
-/// many, but for ties.
-template <typename Weight>
-double last_of_share(const std::vector<double>& values, const Weight& weight, double share,
-                     MPI_Comm communicator) {
-  const auto weight_from = [&](double least) {
-    double sum = 0;
-    for (const double value : values)
-      if (value >= least)
-        sum += weight(value);
-    return Utilities::MPI::sum(sum, communicator);
-  };
-  double low = 1e-300, high = 1;
-  if (weight_from(high) >= share)
-    return high;
-  for (int halving = 0; halving < 64; ++halving) {
-    const double middle = std::sqrt(low) * std::sqrt(high);
-    (weight_from(middle) >= share ? low : high) = middle;
-  }
-  double last = high;
-  for (const double value : values)
-    if (value >= low)
-      last = std::min(last, value);
-  return Utilities::MPI::min(last, communicator);
-}
-
-/// Flags the cells with the largest values among those from @p last_marked on, so many that the
-/// mesh will have @p most_cells cells at most. Returns the value of the last.
-double flag_as_many_as_fit(Triangulation<2>& triangulation, const Scene& scene,
-                           const Vector<double>& squares, double last_marked, double most_cells) {
-  const MPI_Comm communicator = triangulation.get_communicator();
-  const std::vector<double> own = own_squares(triangulation, squares);
-  const double n_now = triangulation.n_global_active_cells();
-  double n_marked = Utilities::MPI::sum(
-      double(std::count_if(own.begin(), own.end(),
-                           [last_marked](double square) { return square >= last_marked; })),
-      communicator);
-  for (;;) {
-    // Neighbours that must be cut too come on top of the marked cells.
-    n_marked *= 0.98 * (most_cells - n_now) / (n_cells_to_come(triangulation) - n_now);
-    clear_flags(triangulation);
-    if (n_marked < 1)
-      return last_marked;
-    last_marked = last_of_share(
-        own, [](double) { return 1.; }, std::floor(n_marked), communicator);
-    flag(triangulation, scene, squares, last_marked);
-    settle_flags(triangulation);
-    if (n_cells_to_come(triangulation) <= most_cells)
-      return last_marked;
-  }
-}
-
-/// Cuts flagged cells; each part inherits its cell's square times @p left_to_part.
-void execute(Triangulation<2>& triangulation, Vector<double>& squares, double left_to_part) {
-  triangulation.clear_user_data();
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      cell->set_user_index(cell->active_cell_index() + 1);
-  triangulation.execute_coarsening_and_refinement();
-  Vector<double> inherited(triangulation.n_active_cells());
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->is_locally_owned())
-      inherited(cell->active_cell_index()) =
-          cell->user_index() > 0 ? squares(cell->user_index() - 1)
-                                 : left_to_part * squares(cell->parent()->user_index() - 1);
-  squares = inherited;
-}
-
-/// Refines as refine_mesh(), without giving cells to other processes.
-bool refine_in_place(Triangulation<2>& triangulation, const Scene& scene,
-                     const std::vector<double>& indicators, Marking marking, double fraction,
-                     unsigned int degree, double most_cells) {
-  const MPI_Comm communicator = triangulation.get_communicator();
-  Vector<double> squares(indicators.size());
-  const double largest =
-      Utilities::MPI::max(*std::max_element(indicators.begin(), indicators.end()), communicator);
-  for (unsigned int i = 0; i < indicators.size() && largest > 0; ++i)
-    squares(i) = indicators[i] / largest * (indicators[i] / largest);
-  double last_marked = std::numeric_limits<double>::infinity();
-  if (largest > 0 && fraction > 0 && marking != Marking::all) {
-    const std::vector<double> own = own_squares(triangulation, squares);
-    const auto count = [](double) { return 1.; };
-    const auto value = [](double square) { return square; };
-    const double whole =
-        Utilities::MPI::sum(std::accumulate(own.begin(), own.end(), 0.), communicator);
-    last_marked = marking == Marking::bulk
-                      ? last_of_share(own, value, fraction * whole, communicator)
-                      : last_of_share(own, count, fraction * triangulation.n_global_active_cells(),
-                                      communicator);
-  }
-  if (marking == Marking::all)
-    last_marked = 0;
-  const double left_to_part = std::pow(4., -(degree + 1.));
-  const double most_now = std::min(most_cells, 4. * triangulation.n_global_active_cells());
-  clear_flags(triangulation);
-  flag(triangulation, scene, squares, last_marked);
-  settle_flags(triangulation);
-  if (n_cells_to_come(triangulation) > most_cells) {
-    if (marking == Marking::all) {
-      clear_flags(triangulation);
-      return false;
-    }
-    last_marked = flag_as_many_as_fit(triangulation, scene, squares, last_marked, most_cells);
-  }
-  if (count_flagged(triangulation) == 0)
-    return false;
-  execute(triangulation, squares, left_to_part);
-  while (marking != Marking::all) {
-    for (const auto& cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->user_index() == 0 &&
-          squares(cell->active_cell_index()) > last_marked)
-        cell->set_refine_flag();
-    flag_columns(triangulation, scene);
-    settle_flags(triangulation);
-    if (count_flagged(triangulation) == 0 || n_cells_to_come(triangulation) > most_now)
-      break;
-    execute(triangulation, squares, left_to_part);
-  }
-  clear_flags(triangulation);
-  return true;
-}
-
-} // namespace
-
 bool has_room_to_refine(const Triangulation<2>& triangulation, Marking marking, double most_cells) {
   const double least_growth = marking == Marking::all ? 4 : 1.2;
   return least_growth * triangulation.n_global_active_cells() <= most_cells;
 }
 
+namespace {
+
+constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
+
+using MeshCell = Triangulation<2>::active_cell_iterator;
+
+/// The indicators of the cells of all processes, the largest first.
+std::vector<double> gather_sorted(const Triangulation<2>& triangulation,
+                                  const std::vector<double>& indicators) {
+  std::vector<double> own, all;
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->is_locally_owned())
+      own.push_back(indicators[cell->active_cell_index()]);
+  for (const auto& some : Utilities::MPI::all_gather(triangulation.get_communicator(), own))
+    all.insert(all.end(), some.begin(), some.end());
+  std::sort(all.begin(), all.end(), std::greater<double>());
+  return all;
+}
+
+/// How many of the largest indicators are marked.
+std::size_t count_marked(const std::vector<double>& sorted, Marking marking, double fraction) {
+  if (marking == Marking::all)
+    return sorted.size();
+  if (sorted.front() == 0)
+    return 0;
+  if (marking == Marking::number)
+    return std::ceil(fraction * sorted.size());
+  const auto square = [&](double indicator) { return std::pow(indicator / sorted.front(), 2); };
+  double wanted = 0;
+  for (const double indicator : sorted)
+    wanted += fraction * square(indicator);
+  std::size_t count = 0;
+  for (double sum = 0; sum < wanted && count < sorted.size(); ++count)
+    sum += square(sorted[count]);
+  return count;
+}
+
+/// Gives the cells next to those of a process the numbers that their own processes have for them.
+void exchange_to_ghosts(const Triangulation<2>& triangulation, std::vector<double>& of_cells) {
+  if (is_alone(triangulation.get_communicator()))
+    return;
+  GridTools::exchange_cell_data_to_ghosts<double, Triangulation<2>>(
+      triangulation,
+      [&](const MeshCell& cell) -> std::optional<double> {
+        return of_cells[cell->active_cell_index()];
+      },
+      [&](const MeshCell& cell, double number) { of_cells[cell->active_cell_index()] = number; });
+}
+
+/// Flags the cells of the same level above and below those that are flagged, as far as flagged
+/// cells reach. What varies in z like sin(k z) varies in r like exp(+-k int alpha^(1/2) dr): cells
+/// longer than that would have to turn one trace into another within them, at a high cost.
+void flag_columns(Triangulation<2>& triangulation, const Scene& scene) {
+  // To exp(-3 pi / 4), a tenth, of what changes its sign from one cell to the next.
+  constexpr double reach_of_length = 0.75;
+  const auto depth = [&scene](const MeshCell& cell) {
+    const double height = cell->vertex(3)[0] - cell->vertex(0)[0];
+    return height * std::sqrt(std::max(0., scene.alpha(cell->center()[0])));
+  };
+  for (const unsigned int face : {0U, 1U}) {
+    std::vector<double> reach(triangulation.n_active_cells()); // beyond the cell
+    for (const auto& cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->refine_flag_set())
+        reach[cell->active_cell_index()] =
+            reach_of_length * (cell->vertex(3)[1] - cell->vertex(0)[1]) - depth(cell);
+    int is_settled;
+    do {
+      is_settled = 1;
+      exchange_to_ghosts(triangulation, reach);
+      for (const auto& cell : triangulation.active_cell_iterators()) {
+        const double from_here = reach[cell->active_cell_index()];
+        if (from_here <= 0 || cell->at_boundary(face))
+          continue;
+        const auto next = cell->neighbor(face);
+        if (next->has_children() || next->level() != cell->level() || !next->is_locally_owned())
+          continue;
+        next->set_refine_flag();
+        double& from_next = reach[next->active_cell_index()];
+        if (from_here - depth(next) > from_next) {
+          from_next = from_here - depth(next);
+          is_settled = 0;
+        }
+      }
+    } while (Utilities::MPI::min(is_settled, triangulation.get_communicator()) == 0);
+  }
+}
+
+/// Settles with which neighbours the flagged cells must be cut.
+/// @return the number of flagged cells of all processes
+double settle_flags(Triangulation<2>& triangulation) {
+  std::vector<double> is_flagged(triangulation.n_active_cells());
+  for (double count = -1;;) { // until no process has more to pass on
+    for (const auto& cell : triangulation.active_cell_iterators())
+      is_flagged[cell->active_cell_index()] = cell->refine_flag_set();
+    exchange_to_ghosts(triangulation, is_flagged);
+    for (const auto& cell : triangulation.active_cell_iterators())
+      if (is_flagged[cell->active_cell_index()] > 0)
+        cell->set_refine_flag();
+    triangulation.prepare_coarsening_and_refinement();
+    double own = 0;
+    for (const auto& cell : triangulation.active_cell_iterators())
+      own += cell->is_locally_owned() && cell->refine_flag_set();
+    const double before = count;
+    count = Utilities::MPI::sum(own, triangulation.get_communicator());
+    if (count == before)
+      return count;
+  }
+}
+
+/// Flags the cells with indicators from @p least on, and those that must be cut with them.
+/// @return the number of flagged cells of all processes
+double flag(Triangulation<2>& triangulation, const Scene& scene,
+            const std::vector<double>& indicators, double least) {
+  for (const auto& cell : triangulation.active_cell_iterators()) {
+    cell->clear_refine_flag();
+    // Mirror images have the same indicator but for round-off, which shall not choose.
+    if (cell->is_locally_owned() && cell->level() < finest_level &&
+        indicators[cell->active_cell_index()] >= (1 - 1e-6) * least)
+      cell->set_refine_flag();
+  }
+  flag_columns(triangulation, scene);
+  return settle_flags(triangulation);
+}
+
+} // namespace
+
 bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,
-                 unsigned int degree, double most_cells) {
-  const bool is_changed =
-      refine_in_place(triangulation, scene, indicators, marking, fraction, degree, most_cells);
-  if (auto* const distributed =
-          dynamic_cast<parallel::distributed::Triangulation<2>*>(&triangulation);
-      distributed && is_changed)
-    distributed->repartition();
-  return is_changed;
+                 double most_cells) {
+  const std::vector<double> sorted = gather_sorted(triangulation, indicators);
+  const double most_flagged = (most_cells - triangulation.n_global_active_cells()) / 3;
+  double n_flagged = 0;
+  for (double n_marked = count_marked(sorted, marking, fraction); n_marked >= 1;) {
+    n_flagged = flag(triangulation, scene, indicators, sorted[n_marked - 1]);
+    if (n_flagged <= most_flagged)
+      break;
+    // Neighbours that must be cut too come on top of the marked cells.
+    n_marked = marking == Marking::all
+                   ? 0
+                   : std::floor(0.98 * n_marked * std::max(0., most_flagged) / n_flagged);
+    n_flagged = 0;
+  }
+  if (n_flagged == 0) {
+    for (const auto& cell : triangulation.active_cell_iterators())
+      cell->clear_refine_flag();
+    return false;
+  }
+  triangulation.execute_coarsening_and_refinement();
+  if (auto* const shared = dynamic_cast<parallel::distributed::Triangulation<2>*>(&triangulation))
+    shared->repartition();
+  return true;
+}
+
+bool is_at_finest_level(const Triangulation<2>& triangulation) {
+  return triangulation.n_global_levels() > finest_level;
 }
 
 } // namespace rollwave

@@ -2,6 +2,9 @@
 
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -32,13 +35,32 @@ std::optional<double> root(double z0, double value0, double z1, double value1, d
   return z0 - (z1 - z0) / (ratio - 1);
 }
 
+/// What decides how gap and pressure grow from an end.
+struct EndLaw {
+  double speed_margin; ///< 1 - omega b
+  double depth;        ///< int alpha^(1/2) dr from hub to surface, an angle
+
+  explicit EndLaw(const Scene& scene)
+      : speed_margin(std::max(0., 1 - scene.angular_velocity * scene.outer_radius)), depth(0) {
+    const QGauss<1> gauss(8);
+    const double thickness = scene.outer_radius - scene.inner_radius;
+    for (unsigned int q = 0; q < gauss.size(); ++q)
+      depth +=
+          thickness * gauss.weight(q) *
+          std::sqrt(std::max(0., scene.alpha(scene.inner_radius + thickness * gauss.point(q)[0])));
+  }
+};
+
 /// The end of a stretch beside its outermost node @p i, with @p n_outside nodes in the direction @p
 /// out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
 double find_end(const Profile& nodes, int i, int out, int n_outside, int n_inside,
-                double speed_margin) {
+                const EndLaw& law) {
   const auto& z = nodes.angle;
   const double spacing = std::abs(z[i] - z[i + out]);
-  const double s = spacing > std::pow(2 * speed_margin, 1.5) ? 1. / 3 : 1. / 2;
+  const bool is_foundation = spacing > law.depth / 2;
+  const double s = is_foundation                                   ? 0
+                   : spacing > std::pow(2 * law.speed_margin, 1.5) ? 1. / 3
+                                                                   : 1. / 2;
   const auto root_of_gap = [&](int near, int far) {
     const int k = i + near * out, l = i + far * out;
     return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
@@ -50,6 +72,8 @@ double find_end(const Profile& nodes, int i, int out, int n_outside, int n_insid
     end = root_of_gap(1, 2);
   if (!end && n_inside >= 1)
     end = root(z[i], nodes.pressure[i], z[i - out], nodes.pressure[i - out], 1 / (1 - s));
+  if (end && is_foundation)
+    *end -= out * (2 * std::log(2.) / numbers::PI) * law.depth;
   if (!end)
     end = z[i] + out * spacing / 2;
   const auto [low, high] = std::minmax(z[i + out] + out * spacing / 2, z[i] - out * spacing / 2);
@@ -113,15 +137,15 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
     profile.pressure.push_back(force(i) / problem.weight(i));
     resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure.back());
   }
-  const double speed_margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
+  const EndLaw law(scene);
   for (const Stretch& stretch :
        find_stretches(solution.active, profile, 1e-10 * displacement.linfty_norm())) {
     const auto [first, last, n_before, n_behind] = stretch;
     ContactPatch patch = {scene.zone_begin, scene.zone_end, 0, 0, 0};
     if (n_before > 0)
-      patch.begin = find_end(profile, first, -1, n_before, last - first, speed_margin);
+      patch.begin = find_end(profile, first, -1, n_before, last - first, law);
     if (n_behind > 0)
-      patch.end = find_end(profile, last, 1, n_behind, last - first, speed_margin);
+      patch.end = find_end(profile, last, 1, n_behind, last - first, law);
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
     patch.length = distance_on_road(scene, patch.begin, patch.end);

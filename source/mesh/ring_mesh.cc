@@ -28,8 +28,6 @@ using namespace dealii;
 
 namespace {
 
-using Distributed = parallel::distributed::Triangulation<2>;
-
 constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
 constexpr double seam_angle = numbers::PI / 2;
 
@@ -124,13 +122,6 @@ std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
   return grid;
 }
 
-void make_periodic(Triangulation<2>& triangulation) {
-  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
-  GridTools::collect_periodic_faces(triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
-                                    seam);
-  triangulation.add_periodicity(seam);
-}
-
 /// All digits where they are exact.
 std::string count_text(double count) {
   std::ostringstream text;
@@ -168,35 +159,26 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
 
   std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
   std::vector<double> angles = angles_of(scene, mesh.angular_cells);
-  if (!may_be_refined && !is_alone(communicator)) {
-    for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
-      halve(radii);
-      halve(angles);
-    }
-    auto strips = make_strip_mesh(radii, angles, communicator);
-    make_periodic(*strips);
-    return strips;
-  }
-
-  std::unique_ptr<Triangulation<2>> triangulation = make_grid(radii, angles);
-  Distributed* distributed = nullptr;
-  if (!is_alone(communicator)) {
-    // Cells change their process when a refinement is complete, and not before.
-    auto shared = std::make_unique<Distributed>(communicator, smoothing,
-                                                Distributed::no_automatic_repartitioning);
-    shared->copy_triangulation(*triangulation);
-    distributed = shared.get();
-    triangulation = std::move(shared);
-  }
-  make_periodic(*triangulation);
   for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
-    triangulation->refine_global();
-    // From then on the shares of the processes are equal but for few cells, and stay so.
-    constexpr unsigned int cells_of_a_share = 4000;
-    if (distributed &&
-        distributed->n_global_active_cells() < cells_of_a_share * count_processes(communicator))
-      distributed->repartition();
+    halve(radii);
+    halve(angles);
   }
+  std::unique_ptr<Triangulation<2>> triangulation;
+  if (is_alone(communicator))
+    triangulation = make_grid(radii, angles);
+  else if (!may_be_refined)
+    triangulation = make_strip_mesh(radii, angles, communicator);
+  else {
+    // Cells change their process when a refinement is complete, and not before.
+    using Distributed = parallel::distributed::Triangulation<2>;
+    triangulation = std::make_unique<Distributed>(communicator, smoothing,
+                                                  Distributed::no_automatic_repartitioning);
+    triangulation->copy_triangulation(*make_grid(radii, angles));
+  }
+  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
+  GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
+                                    seam);
+  triangulation->add_periodicity(seam);
   return triangulation;
 }
 

@@ -3,14 +3,15 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/boundary_id.h"
-#include "rollwave/mesh/matrix_pattern.h"
+#include "rollwave/mesh/lexicographic_dofs.h"
 #include "rollwave/mesh/nested_dissection.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
@@ -26,16 +27,55 @@ using namespace dealii;
 
 namespace {
 
-/// What hanging nodes and the nodes on the seam follow, not closed yet.
-AffineConstraints<double> ties(const DoFHandler<2>& handler) {
-  AffineConstraints<double> constraints(DoFTools::extract_locally_relevant_dofs(handler));
-  // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
-  // the seam twice.
-  if (handler.get_triangulation().has_hanging_nodes())
-    DoFTools::make_hanging_node_constraints(handler, constraints);
-  DoFTools::make_periodicity_constraints(handler, seam_begin_id, seam_end_id, /*direction=*/1,
-                                         constraints);
-  return constraints;
+/// A node of an edge on r = b.
+struct EdgeNode {
+  double begin; ///< angle at which the edge begins
+  double angle, weight;
+  types::global_dof_index dof;
+
+  template <class Archive>
+  void serialize(Archive& archive, unsigned int) {
+    archive& begin& angle& weight& dof;
+  }
+};
+
+/// The nodes of all edges of all processes, edge by edge from the seam on.
+std::vector<EdgeNode> gather_edges(const RingSpace& space) {
+  const unsigned int p = space.dof_handler().get_fe().degree;
+  const QGaussLobatto<1> rule(p + 1);
+  LexicographicDofs dofs(space.dof_handler());
+  std::vector<EdgeNode> own, all;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned() || !cell->at_boundary(1))
+      continue;
+    const double begin = cell->vertex(1)[1], length = cell->vertex(3)[1] - begin;
+    for (unsigned int k = 0; k <= p; ++k) {
+      // A node on the seam counts as the node that its constraint equates it with.
+      const auto dof = dofs.of(cell)[p + (p + 1) * k];
+      const auto* const entries = space.constraints().get_constraint_entries(dof);
+      own.push_back({begin, begin + length * rule.point(k)[0],
+                     space.outer_radius() * length * rule.weight(k),
+                     entries ? entries->front().first : dof});
+    }
+  }
+  for (const auto& some : Utilities::MPI::all_gather(space.communicator(), own))
+    all.insert(all.end(), some.begin(), some.end());
+  std::stable_sort(all.begin(), all.end(), [](const EdgeNode& left, const EdgeNode& right) {
+    return left.begin < right.begin;
+  });
+  return all;
+}
+
+/// The values of a field at nodes on every process.
+std::vector<double> values_at(const RingSpace& space, const std::vector<SurfaceNode>& nodes,
+                              const FieldVector& field) {
+  // A sum with zeros is exact in any order, so that all processes get the same digits.
+  std::vector<double> values(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    if (field.in_local_range(nodes[i].dof))
+      values[i] = field(nodes[i].dof);
+  Utilities::MPI::sum(values, space.communicator(), values);
+  return values;
 }
 
 } // namespace
@@ -45,7 +85,13 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   handler.distribute_dofs(element);
 
   relevant = DoFTools::extract_locally_relevant_dofs(handler);
-  affine_constraints = ties(handler);
+  affine_constraints = AffineConstraints<double>(relevant);
+  // Hanging nodes first, the period after them: the other order would constrain hanging nodes on
+  // the seam twice.
+  if (triangulation.has_hanging_nodes())
+    DoFTools::make_hanging_node_constraints(handler, affine_constraints);
+  DoFTools::make_periodicity_constraints(handler, seam_begin_id, seam_end_id, /*direction=*/1,
+                                         affine_constraints);
   VectorTools::interpolate_boundary_values(cartesian, handler, hub_id, Functions::ZeroFunction<2>(),
                                            affine_constraints);
   affine_constraints.close();
@@ -70,8 +116,6 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   look_over_cells();
 }
 
-RingSpace::~RingSpace() = default;
-
 void RingSpace::look_over_cells() {
   double least = std::numeric_limits<double>::max(), largest = 0;
   for (const auto& cell : handler.active_cell_iterators()) {
@@ -90,53 +134,12 @@ void RingSpace::look_over_cells() {
                                 Utilities::MPI::max(largest, communicator())};
 }
 
-/// A node of an edge on r = b.
-struct RingSpace::EdgeNode {
-  double begin; ///< angle at which the edge begins
-  double angle, weight;
-  types::global_dof_index dof;
-
-  template <class Archive>
-  void serialize(Archive& archive, unsigned int) {
-    archive& begin& angle& weight& dof;
-  }
-};
-
-/// The nodes of all edges of all processes, edge by edge from the seam on.
-std::vector<RingSpace::EdgeNode> RingSpace::gather_edges() const {
-  FEFaceValues<2> face_values(cartesian, element, QGaussLobatto<1>(element.degree + 1),
-                              update_values | update_quadrature_points | update_JxW_values);
-  std::vector<types::global_dof_index> dofs(element.n_dofs_per_cell());
-  std::vector<EdgeNode> own, all;
-  for (const auto& cell : handler.active_cell_iterators()) {
-    if (!cell->is_locally_owned() || !cell->at_boundary(1))
-      continue;
-    face_values.reinit(cell, 1);
-    cell->get_dof_indices(dofs);
-    for (const unsigned int q : face_values.quadrature_point_indices())
-      for (const unsigned int i : face_values.dof_indices())
-        // The quadrature points are the nodes, where one shape function is 1, the others 0.
-        if (face_values.shape_value(i, q) > 0.5) {
-          // A node on the seam counts as the node that its constraint equates it with.
-          const auto* const entries = affine_constraints.get_constraint_entries(dofs[i]);
-          own.push_back({cell->vertex(1)[1], face_values.quadrature_point(q)[1],
-                         radius * face_values.JxW(q), entries ? entries->front().first : dofs[i]});
-        }
-  }
-  for (const auto& some : Utilities::MPI::all_gather(communicator(), own))
-    all.insert(all.end(), some.begin(), some.end());
-  std::stable_sort(all.begin(), all.end(), [](const EdgeNode& left, const EdgeNode& right) {
-    return left.begin < right.begin;
-  });
-  return all;
-}
-
 void RingSpace::find_surface(const Scene& scene) {
   const double middle = (scene.zone_begin + scene.zone_end) / 2;
   const auto turn = [middle](double z) {
     return 2 * numbers::PI * std::floor((z - middle) / (2 * numbers::PI) + 0.5);
   };
-  const std::vector<EdgeNode> edges = gather_edges();
+  const std::vector<EdgeNode> edges = gather_edges(*this);
   std::map<types::global_dof_index, SurfaceNode> nodes;
   for (const auto& [begin, z, weight, dof] : edges)
     nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second.weight += weight;
@@ -185,36 +188,25 @@ const std::vector<types::global_dof_index>& RingSpace::elimination_order() const
   return order;
 }
 
-const TrilinosWrappers::SparsityPattern&
+TrilinosWrappers::SparsityPattern
 RingSpace::matrix_pattern(const AffineConstraints<double>& constraints) const {
-  if (handler.get_triangulation().has_hanging_nodes()) {
-    pattern = make_matrix_pattern(handler, constraints, relevant);
-  } else if (!pattern) {
-    AffineConstraints<double> seam = ties(handler);
-    seam.close();
-    pattern = make_matrix_pattern(handler, seam, relevant);
-  }
-  return *pattern;
+  DynamicSparsityPattern entries(handler.n_dofs(), handler.n_dofs(), relevant);
+  DoFTools::make_sparsity_pattern(handler, entries, constraints, /*keep_constrained_dofs=*/false);
+  const IndexSet& owned = handler.locally_owned_dofs();
+  if (!is_alone(communicator()))
+    SparsityTools::distribute_sparsity_pattern(entries, owned, communicator(), relevant);
+  TrilinosWrappers::SparsityPattern pattern;
+  pattern.reinit(owned, owned, entries, communicator());
+  return pattern;
 }
 
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
-  return values_at(surface, field);
+  return values_at(*this, surface, field);
 }
 
 Vector<double> RingSpace::contact_values(const FieldVector& field) const {
-  const std::vector<double> values = values_at(contact, field);
+  const std::vector<double> values = values_at(*this, contact, field);
   return Vector<double>(values.begin(), values.end());
-}
-
-std::vector<double> RingSpace::values_at(const std::vector<SurfaceNode>& nodes,
-                                         const FieldVector& field) const {
-  // A sum with zeros is exact in any order, so that all processes get the same digits.
-  std::vector<double> values(nodes.size());
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (field.in_local_range(nodes[i].dof))
-      values[i] = field(nodes[i].dof);
-  Utilities::MPI::sum(values, communicator(), values);
-  return values;
 }
 
 } // namespace rollwave

@@ -1,5 +1,10 @@
 #include "rollwave/run/remarks.h"
 
+#include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/mesh/tensor_elements.h"
+
+#include <boost/math/tools/minima.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -19,6 +24,26 @@ double depth_outside(const Scene& scene, const Result& result) {
   return depth;
 }
 
+/// Whether u_h is beyond the road anywhere in the zone, between nodes as well.
+bool passes_road(const Scene& scene, const RingSpace& space, const Result& result) {
+  const auto shapes = lobatto_lagrange(result.mesh.degree);
+  for (const SurfaceFace& face : space.surface_faces()) {
+    const double length = face.end - face.begin;
+    const auto gap = [&](double t) {
+      double gap = scene.road(face.begin + t * length);
+      for (unsigned int k = 0; k < shapes.size(); ++k)
+        gap -= shapes[k].value(t) * result.surface[face.nodes[k]].displacement;
+      return gap;
+    };
+    const double begin = std::max(0., (scene.zone_begin - face.begin) / length),
+                 end = std::min(1., (scene.zone_end - face.begin) / length);
+    constexpr int bits = 26; // of the place; the least gap has twice as many
+    if (begin < end && boost::math::tools::brent_find_minima(gap, begin, end, bits).second < 0)
+      return true;
+  }
+  return false;
+}
+
 std::string rounded(double value) {
   std::ostringstream text;
   text << std::setprecision(2) << value;
@@ -28,7 +53,7 @@ std::string rounded(double value) {
 } // namespace
 
 std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& options,
-                                    const Result& result) {
+                                    const RingSpace& space, const Result& result) {
   std::vector<std::string> remarks;
   const auto& ends = result.patch.ends;
   const unsigned int active_nodes = result.patch.active_nodes;
@@ -52,12 +77,14 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
       remark = "there is no bound: f^2 grows without end towards one place, as at a pole";
     remarks.push_back(remark);
   }
-  constexpr unsigned int few_nodes = 2;
-  if (0 < active_nodes && active_nodes <= few_nodes)
-    remarks.push_back("contact is held by " + std::to_string(active_nodes) +
-                      (active_nodes == 1 ? " node" : " nodes") +
-                      ", so that force, ends and pressure are rough; raise Mesh/Angular cells, or "
-                      "set Mesh/Wanted relative error");
+  // Two cells with all of their nodes have one more.
+  const bool is_held_by_few = 0 < active_nodes && active_nodes <= 2 * result.mesh.degree;
+  if (is_held_by_few || (active_nodes == 0 && passes_road(scene, space, result)))
+    remarks.push_back((is_held_by_few ? "contact is held by " + std::to_string(active_nodes) +
+                                            (active_nodes == 1 ? " node" : " nodes")
+                                      : "the surface passes the road between nodes") +
+                      ", so that force, ends and pressure are not resolved; raise Mesh/Angular "
+                      "cells, or set Mesh/Wanted relative error");
   const auto largest = std::max_element(
       result.surface.begin(), result.surface.end(), [](const auto& one, const auto& other) {
         return std::abs(one.displacement) < std::abs(other.displacement);
@@ -67,6 +94,28 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
     remarks.push_back("the surface is displaced by more than the ring is thick, for which the "
                       "linear model is not meant");
   return remarks;
+}
+
+std::string cost_text(const RunOptions& options, const Result& result) {
+  const double wanted = options.mesh.wanted_relative_error;
+  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that tell the rate
+  for (const CycleFigures& mesh : result.cycles)
+    if (mesh.indicated > 0)
+      end = &mesh;
+  for (const CycleFigures& mesh : result.cycles)
+    if (end && 4 * mesh.dofs <= end->dofs)
+      begin = &mesh;
+  if (!result.certified || !begin || !(end->indicated < begin->indicated))
+    return {};
+  const double rate =
+      std::log(begin->indicated / end->indicated) / std::log(double(end->dofs) / begin->dofs);
+  std::ostringstream text;
+  text << wanted << " needs about " << std::setprecision(1)
+       << result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate)
+       << " unknowns at degree " << result.mesh.degree;
+  if (result.mesh.degree < highest_degree && options.mesh.marking != Marking::all)
+    text << ", fewer at a higher one";
+  return text.str();
 }
 
 } // namespace rollwave

@@ -1,7 +1,6 @@
 #include "rollwave/run/simulation.h"
 
 #include "rollwave/adapt/marking.h"
-#include "rollwave/adapt/refinement_flags.h"
 #include "rollwave/adapt/residual_indicator.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
@@ -110,7 +109,7 @@ bool refine(const std::vector<double>& indicators, const RunOptions& options, So
   const Work::Phase phase(solution.result.work, "mesh");
   const auto& mesh = options.mesh;
   if (!refine_mesh(*solution.triangulation, solution.scene, indicators, mesh.marking,
-                   mesh.marked_fraction, mesh.degree, most_cells(options)))
+                   mesh.marked_fraction, most_cells(options)))
     return false;
   solution.certificate.reset();
   solution.system = {};
@@ -130,6 +129,8 @@ std::string missing_error_text(const RunOptions& options, const Solution& soluti
   if (result.certified)
     text << "the certified relative error is " << result.certified->relative << ", wanted "
          << options.mesh.wanted_relative_error << "; ";
+  if (const std::string cost = cost_text(options, result); !cost.empty())
+    text << cost << "; ";
   text << (is_at_finest_level(*solution.triangulation)
                ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
                  "Mesh/Angular cells, or want less"
@@ -182,7 +183,7 @@ void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution)
       result.shortfalls.push_back(
           left_out_text("the load could not be enclosed", failure, "Certificate/Load bounds"));
     }
-  for (const std::string& remark : remarks_on(solution.scene, options, result))
+  for (const std::string& remark : remarks_on(solution.scene, options, *solution.space, result))
     result.remarks.push_back(remark);
   solution.displacement = std::move(on_mesh.displacement);
 }

@@ -59,7 +59,7 @@ void AmgCg::set_matrix(const Scene& scene, const AffineConstraints<double>& cons
                        const RadialProducts& radial, Work& /*work*/) {
   preconditioner.reset();
   threshold = strong_threshold(space, scene);
-  const TrilinosWrappers::SparsityPattern& pattern = space.matrix_pattern(constraints);
+  const TrilinosWrappers::SparsityPattern pattern = space.matrix_pattern(constraints);
   // Measured: 59 bytes with linear elements, 41 with quadratic ones.
   constexpr double bytes_per_entry = 60;
   require_memory(bytes_per_entry * pattern.trilinos_sparsity_pattern().NumMyNonzeros(),

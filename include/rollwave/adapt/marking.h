@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_ADAPT_MARKING_H
 #define ROLLWAVE_ADAPT_MARKING_H
 
-#include "rollwave/mesh/ring_space.h"
+#include <deal.II/grid/tria.h>
 
 #include <optional>
 #include <vector>
@@ -38,39 +38,30 @@ struct RefinementOptions {
 /// How often a run refines its mesh at most.
 unsigned int most_cycles(const RefinementOptions& options);
 
-/// Jumps of the normal derivative, deal.II's KellyErrorEstimator, for each active cell. It ignores
-/// alpha, the force and the contact; for comparison only.
-std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
-
 /// Whether so many more cells fit that a further mesh is worth its solution: a fifth, with
 /// Marking::all three times as many as there are.
 bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking marking,
                         double most_cells);
 
 /**
- * Refines the cells of @p triangulation by the indicators eta_K of its active cells, elements being
- * of @p degree, and shares the cells among the processes anew. Bulk marking is that of W. Doerfler
- * (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum eta_K^2 >= @p fraction of
- * the whole.
+ * Cuts the marked cells of @p triangulation in four and shares the cells among the processes anew.
+ * @p indicators are the eta_K of its active cells. Bulk marking is that of W. Doerfler (SIAM J.
+ * Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum eta_K^2 >= @p fraction of the whole.
  *
- * A cell whose indicator is far above that of the last one marked is cut more than once: where u is
- * smooth, elements of degree p leave eta_K^2 / 4^(p + 1) to each of the four parts, and a part that
- * would be marked with that is cut again. So the cells at an end that the zone cuts short, where a
- * cut gains no more than a factor of 2 in eta_K^2, are not behind the others. Such cuts end where
- * there would be more than four times the cells.
- *
- * With a cell those of its level above and below are cut, as far as what varies over its length
- * reaches.
+ * With a flat cell those above and below are cut, as far as what varies over its length reaches.
  *
  * When more than @p most_cells active cells would come of it, only the marked cells with the
  * largest indicators are cut, so many as fit. Neighbours differ by one level at most, over the seam
- * and at corners as well. Cells of level 29 are not cut: CellId and p4est have no room beyond.
+ * as well. Cells of level 29 are not cut: CellId and p4est have no room beyond.
  *
  * @return false, the mesh being left as it is, when no cell is marked or none fits
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, Marking marking, double fraction,
-                 unsigned int degree, double most_cells);
+                 double most_cells);
+
+/// Whether there are cells that cannot be cut again.
+bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);
 
 } // namespace rollwave
 

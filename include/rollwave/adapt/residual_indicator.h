@@ -10,9 +10,10 @@ namespace rollwave {
 struct Scene;
 
 /**
- * An indicator eta_K of the certified error in the energy norm on each active cell K. It is of
- * residual type, with the contact terms of R. Krause, A. Veeser and M. Walloth (Numer. Math. 130
- * (2015) 151-197), and knows what the certificate cannot represent without solving for it:
+ * An indicator eta_K of the certified error in the energy norm on each active cell K, 0 on those of
+ * other processes. It is of residual type, with the contact terms of R. Krause, A. Veeser and M.
+ * Walloth (Numer. Math. 130 (2015) 151-197), and knows what the certificate cannot represent
+ * without solving for it:
  *
  *     eta_K^2 = int_K H^2 (r f + r alpha u_zz + (r u_r)_r)^2 dr dz
  *             + sum over faces of int H^2 / (2 h_n) [flux]^2,  flux = r u_r or r alpha u_z
@@ -36,6 +37,10 @@ struct Scene;
 std::vector<double> residual_indicator(const RingSpace& space, const Scene& scene,
                                        const ContactProblem& problem,
                                        const ContactSolution& contact, const FieldVector& field);
+
+/// Jumps of the normal derivative, deal.II's KellyErrorEstimator, for each active cell. It ignores
+/// alpha, the force and the contact; for comparison only.
+std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
 
 } // namespace rollwave
 

@@ -53,8 +53,6 @@ public:
   /// @throws BadInput when no node of the mesh lies in the contact zone.
   RingSpace(const dealii::Triangulation<2>& triangulation, const Scene& scene, unsigned int degree);
 
-  ~RingSpace();
-
   const dealii::DoFHandler<2>& dof_handler() const { return handler; }
   const dealii::AffineConstraints<double>& constraints() const { return affine_constraints; }
 
@@ -109,15 +107,12 @@ public:
   std::vector<double> surface_values(const FieldVector& field) const;
   dealii::Vector<double> contact_values(const FieldVector& field) const;
 
-  /// All degrees of freedom in an order of elimination that keeps the factors of matrices on the
-  /// space sparse, whatever their constraints: dissect(), when first asked for. For
-  /// one process.
+  /// dissect(), when first asked for. For one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
-  /// make_matrix_pattern() for all processes, once MPI has been started, until it is asked for
-  /// again. Without hanging nodes all matrices share one.
-  /// @param constraints without hanging nodes those of constraints(), or others on hub and surface
-  const dealii::TrilinosWrappers::SparsityPattern&
+  /// The pairs of degrees of freedom that meet in a cell, when those that the @p constraints tie to
+  /// others stand for these. Each process has the rows of its own.
+  dealii::TrilinosWrappers::SparsityPattern
   matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
@@ -128,12 +123,8 @@ public:
   FieldVector make_field() const { return FieldVector(partitioner); }
 
 private:
-  struct EdgeNode;
-  std::vector<EdgeNode> gather_edges() const;
   void find_surface(const Scene& scene);
   void look_over_cells();
-  std::vector<double> values_at(const std::vector<SurfaceNode>& nodes,
-                                const FieldVector& field) const;
 
   double radius;
   dealii::FE_Q<2> element;
@@ -151,7 +142,6 @@ private:
   std::vector<SurfaceFace> faces;
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
-  mutable std::unique_ptr<const dealii::TrilinosWrappers::SparsityPattern> pattern; ///< likewise
 };
 
 } // namespace rollwave
