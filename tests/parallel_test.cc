@@ -272,8 +272,8 @@ TEST_F(StudyOnProcesses, IsThatOfOne) {
 // One process goes on with what others have begun.
 TEST_F(StudyOnProcesses, MayHandOutScenes) {
   const std::string study =
-      scene + " --set 'Mesh/Wanted relative error=4e-2' --set "
-              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 600; Road/Distance = "
+      scene + " --set 'Mesh/Wanted relative error=2e-2' --set "
+              "'Study/Vary=Mesh/Degree = 2 | 1; Mesh/Most unknowns = 1500; Road/Distance = "
               "0.8 | 0.85'";
   const Outcome alone = shell("$rollwave " + study);
   EXPECT_NE(alone.text.find("falls short"), std::string::npos) << alone.text;
