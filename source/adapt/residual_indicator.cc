@@ -38,8 +38,8 @@ class ResidualTerms {
 public:
   ResidualTerms(const RingSpace& space, const Scene& scene, const FieldVector& field)
       : scene(scene), field(field), n(space.dof_handler().get_fe().degree + 1), gauss(n),
-        inside(n - 1, points_of(0, 1)), halves{LineShapes(n - 1, points_of(0, 0.5)),
-                                               LineShapes(n - 1, points_of(0.5, 1))},
+        inside(n - 1, points_of(0, 1)), halves{{LineShapes(n - 1, points_of(0, 0.5)),
+                                                LineShapes(n - 1, points_of(0.5, 1))}},
         ends(n - 1, {0, 1}), dofs(space.dof_handler()), modes(n) {
     for (unsigned int degree = 0; degree < n; ++degree)
       for (unsigned int q = 0; q < n; ++q)
