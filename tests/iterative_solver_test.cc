@@ -28,7 +28,7 @@ struct Answer {
          const std::string& kind)
       : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {}, system,
                               result.work)) {
-    measure(scene, space, on_mesh, result);
+    measure(space, on_mesh, result);
   }
 
   Result result = {};
