@@ -160,7 +160,7 @@ void ForceIntegral::conclude(const RingSpace& space, const ForceScan& scan, doub
     return Utilities::MPI::max(value, space.communicator());
   };
   for (const unsigned int d : {0U, 1U})
-    largest_cell[d] = largest_of_all(largest_cell[d]) / ForceScan::n_points;
+    largest_cell[d] = largest_of_all(largest_cell[d]) * ForceScan::widest_gap;
   width = std::max(largest_cell[0], space.outer_radius() * largest_cell[1]);
   const bool sees_pole =
       scan.largest() == largest_of_all(scan.largest()) && scan.has_pole(largest_cell);

@@ -86,10 +86,10 @@ ForceScan::Sector ForceScan::sector(const std::vector<double>& ends,
                                     const std::vector<double>& radii, double begin, double length) {
   std::vector<double> narrow_ends = {ends.front()};
   for (unsigned int k = 0; k + 1 < ends.size(); ++k)
-    for (unsigned int i = 1; i <= n_points; ++i)
-      narrow_ends.push_back(ends[k] + (ends[k + 1] - ends[k]) * i / n_points);
+    for (unsigned int i = 1; i <= n_points / 2; ++i)
+      narrow_ends.push_back(ends[k] + (ends[k + 1] - ends[k]) * i / (n_points / 2));
   const InwardIntegral by_gauss(ends, QGauss<1>(rule.size()), radii),
-      coarse(ends, QMidpoint<1>(), radii), narrow(narrow_ends, QMidpoint<1>(), radii);
+      coarse(ends, QMidpoint<1>(), radii), narrow(narrow_ends, QGauss<1>(2), radii);
   const auto on_line = [&](const InwardIntegral& integral, double t) {
     const double z = std::fmod(begin + t * length, 2 * numbers::PI);
     return integral.of([&](double r) { return r * force(r, z); });

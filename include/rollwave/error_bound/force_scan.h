@@ -19,6 +19,9 @@ public:
   /// Points to a cell in each direction.
   static constexpr unsigned int n_points = 32;
 
+  /// How far they are apart at most, as a share of the cell: those of Gauss' rule with two points.
+  static constexpr double widest_gap = 0.5774 / (n_points / 2);
+
   /// @param rule along z
   ForceScan(const Scene& scene, const dealii::QGauss<1>& rule);
 
