@@ -74,9 +74,10 @@ void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigne
              << "' pointtype 6 pointsize 1.4 linewidth 2 title "
              << quoted(curve.title + " published");
   }
-  for (const double slope : panel.slopes)
-    script << ", " << below(panel.curves, slope) << " * x**(" << slope
-           << ") with lines linecolor rgb '#808080' dashtype 3 title 'slope " << slope << "'";
+  for (unsigned int i = 0; i < panel.slopes.size(); ++i)
+    script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]
+           << ") with lines linecolor rgb '#808080' dashtype " << 3 + i << " title 'slope "
+           << panel.slopes[i] << "'";
   script << '\n';
 }
 
@@ -114,7 +115,7 @@ Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels) 
                      width = is_single ? 760 : 1000,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title " << quoted(title)
-         << " margins " << (is_single ? 0.12 : 0.09) << ",0.97,"
+         << " margins " << (is_single ? 0.14 : 0.09) << ",0.97,"
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
          << 65. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
