@@ -289,7 +289,6 @@ TEST_F(Faults, InterruptedStudyKeepsItsRunsAndGoesOn) {
   ASSERT_GE(kept.size(), 3u);
   ASSERT_LT(kept.size(), undisturbed.size());
   EXPECT_TRUE(std::equal(kept.begin(), kept.end(), undisturbed.begin()));
-  EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
 
   const Outcome again = run(study);
   EXPECT_EQ(again.exit_code, 0) << again.text;
@@ -422,7 +421,7 @@ TEST_F(Faults, RemovedDirectoryIsMadeAgain) {
                                           "Mesh/Wanted relative error=0.002"};
   RunningProgram studying(arguments(study));
   studying.await("\n   1  ");
-  fs::remove_all(directory / "out");
+  fs::rename(directory / "out", directory / "aside"); // at once, while files are written
   EXPECT_EQ(studying.end().exit_code, 0);
   const Outcome again = run(study);
   EXPECT_NE(again.text.find("done before"), std::string::npos) << again.text;

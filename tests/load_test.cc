@@ -74,7 +74,7 @@ TEST(Load, ThatNoDistanceGivesIsRefusedWithTheLargest) {
     EXPECT_NE(refused.wanted.find("at 0.5"), std::string::npos) << refused.wanted;
   }
   EXPECT_THROW(parameters_of({"Road/Load=0"}), BadInput);
-  EXPECT_THROW(parameters_of({"Road/Load=1", "Road/Distance=0.8"}), BadInput);
+  EXPECT_THROW(parameters_of({"Road/Load=1", "Road/Distance=0.75"}), BadInput);
 }
 
 TEST(Load, DistanceIsEnclosed) {

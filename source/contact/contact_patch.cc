@@ -66,7 +66,7 @@ double find_end(const Profile& nodes, int i, int out, int n_outside, int n_insid
     return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
   };
   std::optional<double> end;
-  if (n_outside >= 4)
+  if (n_outside >= 4 && !is_foundation) // which bends within so many nodes
     end = root_of_gap(2, 4);
   if (!end && n_outside >= 2)
     end = root_of_gap(1, 2);
@@ -106,8 +106,9 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
 }
 
 /// Between the points of the road at two angles.
-double distance_on_road(const Scene& scene, double begin, double end) {
-  const double r = scene.outer_radius + scene.road(begin), s = scene.outer_radius + scene.road(end);
+double distance_on_road(const Road& road, double begin, double end) {
+  const double r = road.outer_radius + road.displacement(from_lowest_point(begin)),
+               s = road.outer_radius + road.displacement(from_lowest_point(end));
   return std::hypot(r * std::cos(begin) - s * std::cos(end),
                     r * std::sin(begin) - s * std::sin(end));
 }
@@ -148,7 +149,7 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
       patch.end = find_end(profile, last, 1, n_behind, last - first, law);
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
-    patch.length = distance_on_road(scene, patch.begin, patch.end);
+    patch.length = distance_on_road(problem.shape, patch.begin, patch.end);
     for (int i = first; i <= last; ++i) {
       patch.force += force(i);
       patch.centroid += force(i) * profile.angle[i];

@@ -28,6 +28,26 @@ bool is_input(const Parameters& parameters, const fs::path& path) {
   return fs::equivalent(parameters.file, path, ignored);
 }
 
+std::string set_study_aside(const fs::path& directory) {
+  const auto exists = [&](const std::string& name) {
+    return fs::exists(directory / (name + ".csv")) || fs::exists(directory / (name + ".jsonl"));
+  };
+  if (!exists("study"))
+    return "";
+  std::string kept = "study-before";
+  for (unsigned int number = 2; exists(kept); ++number)
+    kept = "study-before-" + std::to_string(number);
+  for (const std::string ending : {".jsonl", ".csv"}) {
+    std::error_code error;
+    if (fs::exists(directory / ("study" + ending), error))
+      fs::rename(directory / ("study" + ending), directory / (kept + ending), error);
+    if (error)
+      throw NotWritten((directory / ("study" + ending)).string() +
+                       " could not be moved: " + error.message());
+  }
+  return kept;
+}
+
 OutputDirectory::OutputDirectory(const Parameters& parameters, MPI_Comm communicator)
     : directory(parameters.output.directory), parameters(parameters) {
   if (process_number(communicator) > 0) {
@@ -99,9 +119,9 @@ void OutputDirectory::remove_files_of_earlier_runs(WrittenFiles& written) {
   std::string removed;
   std::error_code ignored;
   for (const std::string& name : files_of_earlier_runs())
-    if (name == "study.csv") {
-      fs::rename(directory / name, directory / "study-before.csv", ignored);
-      written.remarks.push_back("study.csv is of an earlier run, and kept as study-before.csv");
+    if (name == "study.csv" || name == "study.jsonl") {
+      if (const std::string kept = set_study_aside(directory); !kept.empty())
+        written.remarks.push_back("study.csv is of an earlier run, and kept as " + kept + ".csv");
     } else if (fs::remove(directory / name, ignored))
       removed += (removed.empty() ? "" : ", ") + name;
   if (!removed.empty())

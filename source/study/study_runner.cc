@@ -24,25 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps study.csv and study.jsonl under the first names that are free.
-void set_aside(const fs::path& directory, std::ostream& out) {
-  std::string kept;
-  for (unsigned int number = 1; kept.empty(); ++number) {
-    const std::string name = "study-before" + (number > 1 ? "-" + std::to_string(number) : "");
-    if (!fs::exists(directory / (name + ".csv")) && !fs::exists(directory / (name + ".jsonl")))
-      kept = name;
-  }
-  for (const std::string ending : {".jsonl", ".csv"}) {
-    std::error_code error;
-    if (fs::exists(directory / ("study" + ending), error))
-      fs::rename(directory / ("study" + ending), directory / (kept + ending), error);
-    if (error)
-      throw NotWritten((directory / ("study" + ending)).string() +
-                       " could not be moved: " + error.message());
-  }
-  out << "Note: study.csv has rows of other runs, and is kept as " << kept << ".csv\n";
-}
-
 /// Whether a run has no need to be made again.
 bool is_final(const StudyRun& run, const Parameters& study, const fs::path& directory) {
   if (!run.failure.empty() && !run.is_refused)
@@ -79,7 +60,8 @@ std::string earlier_runs(const Parameters& parameters, const fs::path& directory
     else if (is_final(run, parameters, directory))
       kept += to_json(*plan->second, run) + '\n';
   if (has_others)
-    set_aside(directory, out);
+    out << "Note: study.csv has rows of other runs, and is kept as " << set_study_aside(directory)
+        << ".csv\n";
   return kept;
 }
 

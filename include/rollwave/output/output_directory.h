@@ -24,6 +24,11 @@ void write_parameters(std::ostream& out, const Parameters& parameters);
 /// Whether @p path is the parameter file that was read, by whatever name: it is never written over.
 bool is_input(const Parameters& parameters, const std::filesystem::path& path);
 
+/// Renames study.csv and study.jsonl of a directory to the first names study-before that are free.
+/// @return the name without its ending; empty where there is none of them
+/// @throws NotWritten when a file cannot be moved
+std::string set_study_aside(const std::filesystem::path& directory);
+
 /**
  * The directory that a run writes into, from its beginning to its end. The record in it, which
  * names the files that this program has written there, is locked by the kernel meanwhile, so that
