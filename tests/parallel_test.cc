@@ -117,7 +117,7 @@ TEST_F(Processes, MayBeMoreThanColumns) {
 }
 
 TEST_F(Processes, IterateLikeOneByUzawa) {
-  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-6'", {2});
+  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-8'", {2});
 }
 
 TEST_F(Processes, RefineAThickRingWithAnUnevenForceLikeOne) {
