@@ -218,9 +218,8 @@ TEST_F(Program, RunsAStudy) {
                                 " --set 'Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8 "
                                 "| 1.1' --set 'Study/Published steps=4, -, -, -, -, 1'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  for (const char* name :
-       {"study.csv", "study.jsonl", "study.txt", "study.tex", "study.svg", "study-curves.svg",
-        "study-profiles.svg", "study-map.svg", "parameters.prm"})
+  for (const char* name : {"study.csv", "study.jsonl", "study.txt", "study.tex", "study.svg",
+                           "study-curves.svg", "study-profiles.svg", "parameters.prm"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
   std::istringstream rows(read("study.csv"));
@@ -269,7 +268,8 @@ TEST_F(Program, GoesOnWithAStudyThatWasStopped) {
   };
   const std::string kept = first_lines(read("study.csv"), 4);
   // As after a stop in the fourth run.
-  std::ofstream(directory / "out" / "study.jsonl") << first_lines(read("study.jsonl"), 3);
+  const std::string lines = first_lines(read("study.jsonl"), 3);
+  std::ofstream(directory / "out" / "study.jsonl") << lines;
   const Outcome outcome = shell(study);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   unsigned int skipped = 0;

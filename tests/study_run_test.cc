@@ -207,7 +207,7 @@ TEST(Orders, AreGivenWhereAllCellsAreCutAlike) {
 }
 
 TEST(Orders, OfAdaptiveMeshesAreInUnknowns) {
-  EXPECT_EQ(orders("Mesh/Most unknowns = 1000 | 4000 | 16000", "Mesh/Adaptive cycles=9",
+  EXPECT_EQ(orders("Mesh/Most unknowns = 20000 | 80000 | 320000", "Mesh/Adaptive cycles=9",
                    [](const Parameters& p) { return 1e3 / p.mesh.most_unknowns; }),
             "Orders in N^(-1/2): energy norm 2 +- 0 (expected 1.5)\n");
 }

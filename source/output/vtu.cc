@@ -61,8 +61,9 @@ public:
       };
       add(u[node] * unit);
       add(gradients[node][0]);
+      add(r * unit);
+      add(z);
       add_vector(u[node] * unit);
-      add_vector(r * unit);
       if (solution.certificate)
         add(bound * unit);
       add_vector((r + u[node]) * unit); // behind the data the places of the points
@@ -74,7 +75,7 @@ public:
 
   /// The names of scalars and of components of vectors.
   static std::vector<std::string> field_names(const Solution& solution) {
-    std::vector<std::string> names = {"displacement", "radial_stress", "x", "y", "x", "y"};
+    std::vector<std::string> names = {"displacement", "radial_stress", "radius", "angle", "x", "y"};
     if (solution.certificate)
       names.push_back("certified_error");
     return names;
@@ -82,8 +83,8 @@ public:
 
   /// The vectors among them.
   static Ranges vectors() {
-    const auto vector = DataComponentInterpretation::component_is_part_of_vector;
-    return {{2, 3, "displacement_vector", vector}, {4, 5, "undeformed_position", vector}};
+    return {
+        {4, 5, "displacement_vector", DataComponentInterpretation::component_is_part_of_vector}};
   }
 
 private:

@@ -111,6 +111,9 @@ std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
   }
   figures.emplace_back("seconds", result.work.total_seconds());
   figures.emplace_back("peak_memory_mib", result.peak_memory_mib);
+  for (auto& [name, value] : figures)
+    if (std::isinf(value)) // no number in JSON either
+      value = none;
   return figures;
 }
 

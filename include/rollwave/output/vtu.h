@@ -13,10 +13,10 @@ namespace rollwave {
 /**
  * Writes the deformed cylinder as VTU, in x = (r + u) cos z, y = (r + u) sin z, where a flat road
  * is the line y = -c. Point fields: `displacement` u and, in x and y, `displacement_vector`, both
- * lengths; `radial_stress` u_r; `undeformed_position`. On each cell, where there is a certificate:
- * `certified_error`, eta of the cell. Of the whole: `omega`, `c`, `F`. Elements of degree p become
- * VTK's Lagrange cells with (p + 1)^2 nodes, or p^2 linear cells. A failure to write is left in the
- * state of the stream.
+ * lengths; `radial_stress` u_r; `radius` r and `angle` z, the undeformed coordinates. On each cell,
+ * where there is a certificate: `certified_error`, eta of the cell. Of the whole: `omega`, `c`,
+ * `F`. Elements of degree p become VTK's Lagrange cells with (p + 1)^2 nodes, or p^2 linear cells.
+ * A failure to write is left in the state of the stream.
  *
  * Of several processes each writes its own cells, of which there must be one. @p unit is what the
  * unit of the scene is to be written as.
