@@ -39,9 +39,11 @@ std::optional<double> root(double z0, double value0, double z1, double value1, d
 struct EndLaw {
   double speed_margin; ///< 1 - omega b
   double depth;        ///< int alpha^(1/2) dr from hub to surface, an angle
+  Road road;
 
-  explicit EndLaw(const Scene& scene)
-      : speed_margin(std::max(0., 1 - scene.angular_velocity * scene.outer_radius)), depth(0) {
+  EndLaw(const Scene& scene, const Road& road)
+      : speed_margin(std::max(0., 1 - scene.angular_velocity * scene.outer_radius)), depth(0),
+        road(road) {
     const QGauss<1> gauss(8);
     const double thickness = scene.outer_radius - scene.inner_radius;
     for (unsigned int q = 0; q < gauss.size(); ++q)
@@ -50,6 +52,20 @@ struct EndLaw {
           std::sqrt(std::max(0., scene.alpha(scene.inner_radius + thickness * gauss.point(q)[0])));
   }
 };
+
+/// Where the road meets the straight line through the displacements of two nodes outside of the
+/// contact, by Newton's method from the first one: on an elastic foundation the surface is nearly
+/// undisturbed there, while the road bends within a few nodes.
+double crossing(const Road& road, const Profile& nodes, int first, int second) {
+  const auto phi = [&](double z) { return road.displacement(from_lowest_point(z)); };
+  const auto& z = nodes.angle;
+  const double u = phi(z[first]) - nodes.gap[first];
+  const double slope = (phi(z[second]) - nodes.gap[second] - u) / (z[second] - z[first]);
+  double end = z[first];
+  for (int step = 0; step < 20; ++step)
+    end -= (phi(end) - u - slope * (end - z[first])) / (road.slope(from_lowest_point(end)) - slope);
+  return end;
+}
 
 /// The end of a stretch beside its outermost node @p i, with @p n_outside nodes in the direction @p
 /// out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
@@ -66,8 +82,8 @@ double find_end(const Profile& nodes, int i, int out, int n_outside, int n_insid
     return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
   };
   std::optional<double> end;
-  if (n_outside >= 4 && !is_foundation) // which bends within so many nodes
-    end = root_of_gap(2, 4);
+  if (n_outside >= 4)
+    end = is_foundation ? crossing(law.road, nodes, i + 2 * out, i + 4 * out) : root_of_gap(2, 4);
   if (!end && n_outside >= 2)
     end = root_of_gap(1, 2);
   if (!end && n_inside >= 1)
@@ -138,7 +154,7 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
     profile.pressure.push_back(force(i) / problem.weight(i));
     resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure.back());
   }
-  const EndLaw law(scene);
+  const EndLaw law(scene, problem.shape);
   for (const Stretch& stretch :
        find_stretches(solution.active, profile, 1e-10 * displacement.linfty_norm())) {
     const auto [first, last, n_before, n_behind] = stretch;
