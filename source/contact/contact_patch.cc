@@ -82,10 +82,8 @@ double find_end(const Profile& nodes, int i, int out, int n_outside, int n_insid
     return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
   };
   std::optional<double> end;
-  if (is_foundation && n_outside >= 6) // where the elements' overshoot has faded
-    end = crossing(law.road, nodes, i + 4 * out, i + 6 * out);
-  else if (n_outside >= 4)
-    end = root_of_gap(2, 4);
+  if (n_outside >= 4)
+    end = is_foundation ? crossing(law.road, nodes, i + 2 * out, i + 4 * out) : root_of_gap(2, 4);
   if (!end && n_outside >= 2)
     end = root_of_gap(1, 2);
   if (!end && n_inside >= 1)
