@@ -4,6 +4,7 @@
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/output/output_directory.h"
+#include "rollwave/output/result_files.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/verify/reference_solution.h"
