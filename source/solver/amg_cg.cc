@@ -126,7 +126,7 @@ double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale
   for (double before = std::numeric_limits<double>::max();;) {
     const double norm = residual_norm(u, unpinned_rhs), size = norm > 0 ? scale(u) : 1;
     const double residual = norm / size;
-    if (residual <= accuracy || residual >= before / 2)
+    if (residual <= accuracy || !(residual < before / 2)) // which holds for NaN too
       return residual;
     before = residual;
     iterate(u, unpinned_rhs, accuracy * size, work);
