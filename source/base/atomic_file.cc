@@ -90,12 +90,21 @@ void record_file(const std::filesystem::path& path) {
 }
 
 unsigned long write_file(const std::filesystem::path& path, const std::string& content) {
-  AtomicFile file(path);
-  file.stream() << content;
-  const unsigned long size = file.finish();
-  record_file(path); // first: what is not recorded is never removed
-  file.commit();
-  return size;
+  for (;;)
+    try {
+      AtomicFile file(path);
+      file.stream() << content;
+      const unsigned long size = file.finish();
+      record_file(path); // first: what is not recorded is never removed
+      file.commit();
+      return size;
+    } catch (const NotWritten&) {
+      // Once more where somebody has moved the directory away meanwhile: then it can be made anew.
+      std::error_code ignored;
+      if (std::filesystem::exists(path.parent_path(), ignored) ||
+          !std::filesystem::create_directories(path.parent_path(), ignored))
+        throw;
+    }
 }
 
 } // namespace rollwave
