@@ -8,8 +8,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <boost/functional/hash.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -105,18 +103,24 @@ AngularEnrichment::AngularEnrichment(const RingSpace& space, const Scene& scene,
 /// The columns that cells form, from the inside out.
 std::vector<AngularEnrichment::Column>
 AngularEnrichment::columns_of(const std::vector<Cell>& cells) {
-  std::unordered_map<Cell::Face, const Cell*, boost::hash<Cell::Face>> above, below;
-  for (const Cell& cell : cells) {
-    above[cell.lower] = &cell;
-    below[cell.upper] = &cell;
-  }
+  // By a vertex that one cell alone has at this corner.
+  std::unordered_map<types::global_dof_index, const Cell*> above(cells.size());
+  for (const Cell& cell : cells)
+    above[cell.lower.first] = &cell;
+  const auto next_of = [&](const Cell& cell) {
+    const auto next = above.find(cell.upper.first);
+    return next != above.end() && next->second->lower == cell.upper ? next->second : nullptr;
+  };
+  std::vector<bool> is_next(cells.size());
+  for (const Cell& cell : cells)
+    if (const Cell* const next = next_of(cell))
+      is_next[next - cells.data()] = true;
   std::vector<Column> columns;
   for (const Cell& cell : cells)
-    if (below.count(cell.lower) == 0) {
-      columns.push_back({&cell});
-      for (auto next = above.find(cell.upper); next != above.end();
-           next = above.find(next->second->upper))
-        columns.back().push_back(next->second);
+    if (!is_next[&cell - cells.data()]) {
+      columns.emplace_back();
+      for (const Cell* next = &cell; next; next = next_of(*next))
+        columns.back().push_back(next);
     }
   return columns;
 }
