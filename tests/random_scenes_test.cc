@@ -1,7 +1,9 @@
 // Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
 #include "draw.h"
 #include "rollwave/base/errors.h"
+#include "rollwave/run/simulation.h"
 #include "rollwave/scene/road.h"
+#include "rollwave/scene/scene.h"
 #include "rollwave/verify/reference_solution.h"
 #include "test_scenes.h"
 
@@ -9,6 +11,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 using namespace rollwave;
 
@@ -168,6 +172,46 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
   EXPECT_EQ(counts.not_solved, 0u);
   EXPECT_GE(counts.solved, 0.95 * n_scenes);
   EXPECT_GE(counts.compared, n_scenes / 50);
+}
+
+double load_of(const Result& result, LoadKind kind) {
+  const ContactResultants& patch = result.patch;
+  return Loads{patch.force, patch.vertical_load, patch.work_conjugate_load}.of(kind);
+}
+
+TEST(RandomScenes, AreFoundAgainByTheirLoads) {
+  const unsigned int n_scenes = n_random_scenes(40);
+  Draw draw(7);
+  unsigned int n_found = 0;
+  for (unsigned int i = 0; i < n_scenes; ++i) {
+    std::vector<std::string> settings = draw_scene(draw);
+    settings.push_back("Certificate/Error bound=false");
+    if (draw.count(0, 3) == 0)
+      settings.push_back("Solver/Kind=iterative");
+    const auto kind =
+        draw.one_of<LoadKind>({LoadKind::vertical, LoadKind::total, LoadKind::work_conjugate});
+    SCOPED_TRACE("scene " + std::to_string(i) + text_of(settings));
+    const Parameters parameters = parameters_of(settings);
+    std::optional<Scene> scene;
+    try {
+      scene = make_scene(parameters);
+    } catch (const BadInput&) {
+      continue;
+    }
+    const double c = scene->road_distance, b = scene->outer_radius, nearest = scene->least_distance;
+    const double load = load_of(simulate(*scene, parameters).result, kind);
+    if (!(load > 0) || c < nearest)
+      continue;
+    *scene = with_distance(std::move(*scene), nearest + (b - nearest) / 2);
+    scene->load = Scene::Load{load, kind};
+    const Result result = simulate(*scene, parameters).result;
+    // Between neighbouring distances the load of a hairline contact changes by many digits.
+    if (std::abs(result.road_distance - c) > 4e-16 * c) {
+      EXPECT_NEAR(load_of(result, kind) / load, 1, 1e-8);
+    }
+    ++n_found;
+  }
+  EXPECT_GE(n_found, n_scenes / 2);
 }
 
 } // namespace
