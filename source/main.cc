@@ -75,7 +75,7 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
 int main(int argc, char* argv[]) {
   open_standard_streams();
   settle_signals(true);
-  const Processes processes(argc, argv);
+  const Processes processes(argv);
   settle_signals(processes.is_first()); // PETSc, which deal.II starts with MPI, has undone that
   const auto fail = [&](const std::string& kind, const std::string& message, int code) {
     processes.let_first_speak();

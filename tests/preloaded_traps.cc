@@ -11,3 +11,11 @@ __attribute__((constructor)) void trap() {
 }
 
 } // namespace
+
+extern "C" int PMPI_Init_thread(int* argc, char*** argv, int required, int* provided);
+
+/// In place of MPI's own, which looks for the machine's processors with libxml2: that makes NaNs.
+extern "C" int MPI_Init_thread(int* argc, char*** argv, int required, int* provided) {
+  const rollwave::UntrappedFloatingPoint in_libraries;
+  return PMPI_Init_thread(argc, argv, required, provided);
+}

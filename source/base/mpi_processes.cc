@@ -31,7 +31,9 @@ bool is_launched_by_mpi() {
 
 } // namespace
 
-Processes::Processes(int& argc, char**& argv) {
+Processes::Processes(char** argv) {
+  // The name alone: deal.II hands the arguments to PETSc too, which complains of all of them.
+  int argc = 1;
   if (is_launched_by_mpi())
     mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(argc, argv, /*max_num_threads=*/1);
 }

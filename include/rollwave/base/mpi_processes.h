@@ -16,7 +16,8 @@ namespace rollwave {
 /// there are several, and ends with this object.
 class Processes {
 public:
-  Processes(int& argc, char**& argv);
+  /// @param argv of main()
+  explicit Processes(char** argv);
   ~Processes();
   Processes(const Processes&) = delete;
   Processes& operator=(const Processes&) = delete;
