@@ -104,7 +104,7 @@ bool compare_with_exact(const Scene& scene, const Parameters& parameters, const 
 /// distance, its slope -G grows.
 void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters& parameters,
                                 Solution nearest) {
-  const double c = parameters.road.distance / scene.unit;
+  const double c = parameters.road.distance / scene.units.length;
   // Not less than what distances resolve.
   const double step = std::max(draw.power_of_ten(-3, -1) * std::abs(scene.outer_radius - c), 1e-12);
   std::vector<Result> results = {nearest.result};

@@ -20,12 +20,7 @@ using namespace rollwave;
 namespace {
 
 Study planned(const std::vector<std::string>& assignments) {
-  const Parameters parameters = parameters_of(assignments);
-  Study study;
-  study.plans = plan_runs(parameters, 1);
-  study.runs.resize(study.plans.size());
-  study.has_true_errors = parameters.study.true_errors;
-  return study;
+  return plan_study(parameters_of(assignments));
 }
 
 StudyRun some_run() {
@@ -84,7 +79,8 @@ protected:
     Parameters parameters = parameters_of(all);
     parameters.output.directory = directory.string();
     std::ostringstream out;
-    const Study study = run_study(parameters, directory, out);
+    Study study = plan_study(parameters);
+    run_study(study, parameters, directory, out);
     unsigned int count = 0;
     const std::string text = out.str();
     for (auto at = text.find("done before"); at != std::string::npos;

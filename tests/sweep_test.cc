@@ -116,7 +116,8 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
   std::ostringstream out;
   Parameters parameters = parameters_of(assignments);
   parameters.output.directory = directory.string();
-  const Study study = run_study(parameters, directory, out);
+  Study study = plan_study(parameters);
+  run_study(study, parameters, directory, out);
   std::filesystem::remove_all(directory);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
@@ -124,7 +125,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
     const StudyRun& row = *study.runs[run];
     ASSERT_TRUE(row.is_solved()) << row.failure;
     const Scene scene = make_scene(plan.parameters);
-    const Result single = to_lengths(simulate(scene, plan.parameters).result, scene.unit);
+    const Result single = in_users_units(simulate(scene, plan.parameters).result, scene.units);
     const double size = single.energy.norm_squared;
     EXPECT_NEAR(*row.figure("force"), single.patch.force,
                 1e-9 * (std::abs(single.patch.force) + std::sqrt(size)));

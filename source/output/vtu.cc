@@ -29,8 +29,8 @@ using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
 /// Makes a patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCells {
 public:
-  DeformedCells(const Solution& solution, double unit)
-      : solution(solution), unit(unit), space(*solution.space),
+  DeformedCells(const Solution& solution, const Units& units)
+      : solution(solution), units(units), space(*solution.space),
         element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
@@ -41,14 +41,17 @@ public:
     values.reinit(cell);
     values.get_function_values(solution.displacement, u);
     values.get_function_gradients(solution.displacement, gradients);
-    const double bound =
-        solution.certificate ? solution.certificate->cell_bounds[cell->active_cell_index()] : 0;
+    const double bound = solution.certificate
+                             ? solution.certificate->cell_bounds[cell->active_cell_index()] *
+                                   units.of(Quantity::energy_norm)
+                             : 0;
+    const double length = units.length, pressure = units.of(Quantity::pressure);
     Patch patch;
     patch.patch_index = index;
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(field_names(solution).size() + 2, u.size());
+    patch.data.reinit(field_names(solution, units).size() + 2, u.size());
     for (unsigned int i = 0; i < u.size(); ++i) {
       const unsigned int node = numbering[i];
       const double r = values.quadrature_point(node)[0], z = values.quadrature_point(node)[1];
@@ -59,14 +62,14 @@ public:
         add(length * outwards[0]);
         add(length * outwards[1]);
       };
-      add(u[node] * unit);
-      add(gradients[node][0]);
-      add(r * unit);
+      add(u[node] * length);
+      add(gradients[node][0] * pressure);
+      add(r * length);
       add(z);
-      add_vector(u[node] * unit);
+      add_vector(u[node] * length);
       if (solution.certificate)
-        add(bound * unit);
-      add_vector((r + u[node]) * unit); // behind the data the places of the points
+        add(bound);
+      add_vector((r + u[node]) * length); // behind the data the places of the points
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
@@ -74,22 +77,28 @@ public:
   }
 
   /// The names of scalars and of components of vectors.
-  static std::vector<std::string> field_names(const Solution& solution) {
-    std::vector<std::string> names = {"displacement", "radial_stress", "radius", "angle", "x", "y"};
+  static std::vector<std::string> field_names(const Solution& solution, const Units& units) {
+    const std::string length = units.in_brackets(Quantity::length);
+    std::vector<std::string> names = {"displacement" + length,
+                                      "radial_stress" + units.in_brackets(Quantity::pressure),
+                                      "radius" + length,
+                                      "angle" + units.in_brackets(Quantity::angle),
+                                      "x",
+                                      "y"};
     if (solution.certificate)
-      names.push_back("certified_error");
+      names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
     return names;
   }
 
   /// The vectors among them.
-  static Ranges vectors() {
-    return {
-        {4, 5, "displacement_vector", DataComponentInterpretation::component_is_part_of_vector}};
+  static Ranges vectors(const Units& units) {
+    return {{4, 5, "displacement_vector" + units.in_brackets(Quantity::length),
+             DataComponentInterpretation::component_is_part_of_vector}};
   }
 
 private:
   const Solution& solution;
-  const double unit;
+  const Units& units;
   const RingSpace& space;
   const FE_Q<2>& element;
   /// From the order of points in a patch, r running fastest, to the element's own order.
@@ -108,36 +117,39 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 }
 
 /// What the scene is, for captions.
-void write_field_data(std::ostream& out, const Scene& scene, const Result& result, double unit) {
+void write_field_data(std::ostream& out, const Solution& solution, const Units& units) {
   out.precision(std::numeric_limits<double>::max_digits10);
   out << "<FieldData>\n";
-  for (const auto& [name, value] : {std::pair("omega", scene.angular_velocity / unit),
-                                    {"c", scene.road_distance * unit},
-                                    {"F", result.patch.force * unit}})
-    out << "<DataArray type=\"Float64\" Name=\"" << name
-        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value << "</DataArray>\n";
+  for (const auto& [name, value, quantity] :
+       {std::tuple("omega", solution.scene.angular_velocity, Quantity::angular_velocity),
+        {"c", solution.scene.road_distance, Quantity::length},
+        {"F", solution.result.patch.force, Quantity::force}})
+    out << "<DataArray type=\"Float64\" Name=\"" << name << units.in_brackets(quantity)
+        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value * units.of(quantity)
+        << "</DataArray>\n";
   out << "</FieldData>\n";
 }
 
 } // namespace
 
-void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind cells,
+void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind kind,
                          const std::vector<std::string>& pieces) {
-  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution),
-                                 DeformedCells::vectors(), vtk_flags(solution, cells));
+  const Units& units = solution.scene.units;
+  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution, units),
+                                 DeformedCells::vectors(units), vtk_flags(solution, kind));
 }
 
-void write_solution_vtu(std::ostream& out, const Scene& scene, const Solution& solution,
-                        CellKind kind, double unit) {
-  DeformedCells cells(solution, unit);
+void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind,
+                        const Units& units) {
+  DeformedCells cells(solution, units);
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
   try {
     DataOutBase::write_vtu_header(out, flags);
-    write_field_data(out, scene, solution.result, unit);
+    write_field_data(out, solution, units);
     std::vector<Patch> patches;
     const auto write_piece = [&] {
-      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
-                                  DeformedCells::vectors(), flags, out);
+      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution, units),
+                                  DeformedCells::vectors(units), flags, out);
       patches.clear();
     };
     for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {

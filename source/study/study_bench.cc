@@ -140,9 +140,9 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
   if (!run.files.empty()) {
     Parameters parameters = plan.parameters;
     parameters.output.files = study.study.files_of_each_run;
-    write_results(directory / run.files, solution->scene, parameters, *solution);
+    write_results(directory / run.files, parameters, *solution);
   }
-  const Result own = to_lengths(result, scene.unit);
+  const Result own = in_users_units(result, scene.units);
   run.figures = figures_of(own);
   run.pressure = pressure_of(own);
   run.failure = shortfall_text(result);

@@ -1,10 +1,14 @@
 #include "rollwave/study/study_record.h"
 
+#include "rollwave/scene/units.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -25,6 +29,27 @@ constexpr const char* phases[] = {
     "mesh",          "space",          "assembly",    "ordering",
     "factorisation", "preconditioner", "contact",     "back-substitution",
     "measurement",   "indicator",      "certificate", "output"};
+
+/// What the figures measure that are no mere numbers.
+const std::map<Quantity, std::set<std::string>> measured = {
+    {Quantity::length, {"h_max", "road_distance"}},
+    {Quantity::angle, {"half_width", "left_end", "right_end", "error_half_width"}},
+    {Quantity::force,
+     {"force", "vertical_load", "work_conjugate_load", "load_lower_bound", "load_upper_bound",
+      "error_force"}},
+    {Quantity::stiffness,
+     {"stiffness_force", "stiffness_vertical_load", "stiffness_work_conjugate_load"}},
+    {Quantity::pressure, {"peak_pressure"}},
+    {Quantity::area, {"error_l2_norm"}},
+    {Quantity::energy, {"energy", "energy_lower_bound", "energy_upper_bound", "error_energy"}},
+    {Quantity::energy_norm, {"error_energy_norm", "error_feasible", "certified_energy_norm"}}};
+
+std::string column(const std::string& figure, const Units& units) {
+  for (const auto& [quantity, figures] : measured)
+    if (figures.count(figure) > 0)
+      return figure + units.in_brackets(quantity);
+  return figure;
+}
 
 /// A text as a field of a CSV file.
 std::string csv_field(std::string text) {
@@ -76,7 +101,7 @@ std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
       {"road_distance", result.road_distance},
       {"force", patch.force},
       {"energy", result.energy.value},
-      {"half_width", patch.half_width()},
+      {"half_width", patch.patches.size() < 2 ? patch.half_width() : none},
       {"peak_pressure", patch.peak_pressure},
       {"left_end", patch.ends ? patch.ends->first : none},
       {"right_end", patch.ends ? patch.ends->second : none},
@@ -101,7 +126,11 @@ std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
       {"bound_over_error",
        certified && std::isgreater(feasible, 0.) ? certified->energy_norm / feasible : none},
       {"residual", result.residuals.largest()},
-      {"round_off", result.residuals.round_off}};
+      {"round_off", result.residuals.round_off},
+      {"patches", patch.patches.size()},
+      {"stiffness_force", patch.stiffness.total},
+      {"stiffness_vertical_load", patch.stiffness.vertical},
+      {"stiffness_work_conjugate_load", patch.stiffness.work_conjugate}};
   const auto& seconds = result.work.seconds();
   for (const char* const phase : phases) {
     const auto spent = std::find_if(seconds.begin(), seconds.end(),
@@ -174,8 +203,9 @@ std::string study_csv(const Study& study) {
   for (const Setting& setting : first.varied)
     out << setting.path() << ',';
   out << "solved,published_steps,reference,failure,remarks,files";
+  const Units units{1, first.parameters.material};
   for (const std::string& name : names)
-    out << ',' << name;
+    out << ',' << column(name, units);
   out << ",shared\n";
   for (unsigned int i = 0; i < study.plans.size(); ++i) {
     if (!study.runs[i])

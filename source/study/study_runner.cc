@@ -156,19 +156,22 @@ bool make_in_groups(const std::function<StudyBench(MPI_Comm)>& make_bench, unsig
   return !has_interrupted;
 }
 
+/// Whether groups of processes make several runs at a time.
+bool is_farmed(const Parameters& parameters, MPI_Comm communicator) {
+  return parameters.study.processes_per_scene > 0 && !is_alone(communicator);
+}
+
 } // namespace
 
-Study run_study(const Parameters& parameters, const fs::path& directory, std::ostream& out,
-                MPI_Comm communicator) {
+Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   const unsigned int n_processes = count_processes(communicator),
                      group_size = parameters.study.processes_per_scene;
-  const bool is_farmed = group_size > 0 && n_processes > 1;
-  if (is_farmed && group_size >= n_processes)
-    throw BadInput(refusal(parameters.settings, "Study", "Processes per scene",
-                           "one process hands out the scenes, so that there must be more than "
-                           "these"));
+  if (is_farmed(parameters, communicator) && group_size >= n_processes)
+    throw BadValue("Study", "Processes per scene",
+                   "one process hands out the scenes, so that there must be more than these");
   Study study;
-  study.plans = plan_runs(parameters, is_farmed ? group_size : n_processes);
+  study.plans =
+      plan_runs(parameters, is_farmed(parameters, communicator) ? group_size : n_processes);
   study.runs.resize(study.plans.size());
   study.has_true_errors = parameters.study.true_errors;
   unsigned int place = 0;
@@ -176,6 +179,11 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
     study.first_keys.push_back(place);
     place += variation.front().size();
   }
+  return study;
+}
+
+void run_study(Study& study, const Parameters& parameters, const fs::path& directory,
+               std::ostream& out, MPI_Comm communicator) {
   const bool is_first = process_number(communicator) == 0;
   adopt(share_text(communicator, is_first ? earlier_runs(parameters, directory, study.plans, out)
                                           : std::string()),
@@ -204,9 +212,9 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
     return StudyBench(study.plans, parameters, directory, group);
   };
   bool is_complete = true;
-  if (is_farmed)
-    is_complete =
-        make_in_groups(make_bench, group_size, communicator, study, numbers, directories, add);
+  if (is_farmed(parameters, communicator))
+    is_complete = make_in_groups(make_bench, parameters.study.processes_per_scene, communicator,
+                                 study, numbers, directories, add);
   else {
     StudyBench bench = make_bench(communicator);
     is_complete = make_together(bench, study, numbers, directories, add);
@@ -220,7 +228,6 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
                       std::to_string(study.runs.size()) +
                       " runs; the same command goes on with the others";
   }
-  return study;
 }
 
 } // namespace rollwave
