@@ -36,7 +36,7 @@ StudyRun some_run() {
 TEST(StudyRecord, IsReadAsItWasWritten) {
   const Study study = planned({"Road/Contact zone=4.50, 5", "Study/Vary=Mesh/Degree = 1"});
   const StudyRun run = some_run();
-  const std::string line = to_json(study.plans[0], run) + '\n';
+  const std::string line = study_line(study.plans[0], run) + '\n';
   const auto read = read_study_runs(line + line);
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].first, study.plans[0].identity);
@@ -224,7 +224,7 @@ TEST(StudyTable, HasAtMostAHundredColumns) {
     run->remarks = {"a remark with the number 0." + std::to_string(&run - &study.runs[0])};
   }
   std::ostringstream text;
-  print_study(text, study);
+  print_study_notes(text, study);
   const StudyTable table(study);
   unsigned int widest = 0;
   std::istringstream rows(table.header() + table.row(0) + table.row(1));

@@ -49,7 +49,7 @@ protected:
   Result next(const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_with(assignments);
     const Scene scene = make_scene(parameters);
-    solution = simulate_next(scene, parameters, std::move(solution));
+    solution = simulate(scene, parameters, MPI_COMM_SELF, std::move(solution));
     // A zone that is left to the program depends on the distance.
     const Result single = simulate(scene, parameters).result;
     expect_same_answer(solution.result, single);
@@ -145,6 +145,8 @@ TEST(SweepStudy, RowsAreSingleRuns) {
   expect_rows_are_single_runs({"Cylinder/Radial force=20", "Study/Vary=Road/Distance = 0.9 | 0.6"});
   expect_rows_are_single_runs({"Cylinder/Radial force=20", "Mesh/Degree=1", "Solver/Kind=iterative",
                                "Study/Scenes=far: Road/Distance = 0.9; near: Road/Distance = 0.6"});
+  expect_rows_are_single_runs(
+      {"Cylinder/Radial force=3*r", "Study/Vary=Material/Shear modulus = 3 | 1"});
   expect_rows_are_single_runs({"Study/Vary=Cylinder/Radial force = 12 | 0; Road/Distance = 1.8 | "
                                "0.7; Cylinder/Angular velocity = 0.5 | 0.9"});
 }

@@ -35,7 +35,7 @@ std::string contact_csv(const Result& result, const Units& units) {
 
 /// Writes the field, each process its own cells if it has any. Returns the number of bytes.
 unsigned long write_field(const std::filesystem::path& directory, const Parameters& parameters,
-                          const Solution& solution, const Units& units, WrittenFiles& written) {
+                          const Solution& solution, WrittenFiles& written) {
   const MPI_Comm communicator = solution.space->communicator();
   const unsigned int process = process_number(communicator);
   std::vector<std::string> pieces;
@@ -58,7 +58,7 @@ unsigned long write_field(const std::filesystem::path& directory, const Paramete
   unsigned long bytes = 0;
   if (!own.empty()) {
     file.emplace(directory / own);
-    write_solution_vtu(file->stream(), solution, parameters.output.cells, units);
+    write_solution_vtu(file->stream(), solution, parameters.output.cells);
     bytes = file->finish();
   }
   // No piece is moved to its place before all are on the disk.
@@ -94,12 +94,6 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
     work.bytes_written += write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
-  // Fields have single precision.
-  const double b = parameters.cylinder.outer_radius;
-  const bool fits = 1e-25 < b && b < 1e35;
-  Units units = scene.units;
-  if (!fits)
-    units.length = 1 / scene.outer_radius;
   std::exception_ptr failure;
   {
     const Work::Phase phase(work, "output");
@@ -107,28 +101,25 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
     if (parameters.wants(OutputFile::plot) && is_first)
       drawing.emplace(plot_scene(scene, result));
     if (parameters.wants(OutputFile::contact) && is_first)
-      add("contact.csv", contact_csv(result, units));
+      add("contact.csv", contact_csv(result, scene.units));
     if (is_first) {
       std::ostringstream text;
       write_parameters(text, parameters);
       add("parameters.prm", text.str());
     }
     if (parameters.wants(OutputFile::surface) && is_first) {
-      add("surface.vtu", surface_vtu(scene, solution.result, units));
-      add("road.vtu", road_vtu(scene, units));
+      add("surface.vtu", surface_vtu(scene, result));
+      add("road.vtu", road_vtu(scene));
     }
     if (parameters.wants(OutputFile::solution))
       try {
-        work.bytes_written += write_field(directory, parameters, solution, units, written);
+        work.bytes_written += write_field(directory, parameters, solution, written);
       } catch (const NotWritten&) {
         // The largest file by far: where it has no room, the others may.
         if (!is_alone(communicator))
           throw;
         failure = std::current_exception();
       }
-    if (!fits)
-      written.remarks.push_back("the fields are lengths over the outer radius, since they leave "
-                                "the range of single precision");
     if (drawing) {
       if (const auto [svg, reason] = drawing->take(); reason.empty())
         add("scene.svg", svg);

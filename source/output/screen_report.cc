@@ -4,13 +4,12 @@
 
 #include <deal.II/base/table_handler.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <set>
 #include <sstream>
 #include <tuple>
+#include <vector>
 
 namespace rollwave {
 
@@ -65,12 +64,16 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, c
   print_table(out, table);
 }
 
-/// The first file with one of these @p endings; empty without one.
-std::string first_file(const WrittenFiles& written, const std::set<std::string>& endings) {
-  const auto first =
-      std::find_if(written.files.begin(), written.files.end(),
-                   [&](const auto& file) { return endings.count(file.extension()) > 0; });
-  return first == written.files.end() ? "" : first->string();
+/// The first file whose name ends with one of @p endings; empty without one.
+std::string first_file(const WrittenFiles& written, const std::vector<std::string>& endings) {
+  for (const auto& file : written.files)
+    for (const std::string& ending : endings) {
+      const std::string name = file.string();
+      if (name.size() > ending.size() &&
+          name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
+        return name;
+    }
+  return "";
 }
 
 void report_certificate(std::ostream& out, const Result& result, const Units& units) {
@@ -195,7 +198,7 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
   if (const std::string picture = first_file(written, {".svg"}); !picture.empty()) {
-    const std::string field = first_file(written, {".pvd", ".vtu", ".pvtu"});
+    const std::string field = first_file(written, {"study.pvd", "solution.vtu", "solution.pvtu"});
     out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field
         << '\n';
   }

@@ -70,24 +70,23 @@ std::vector<double> angles_of_road(const Scene& scene, double radius) {
   return angles;
 }
 
-std::string surface_vtu(const Scene& scene, const Result& result, const Units& units) {
-  const double length = units.length;
+std::string surface_vtu(const Scene& scene, const Result& result) {
+  const double length = scene.units.length, b = scene.outer_radius * length;
   std::vector<double> radius, angle, displacement, pressure, gap;
   const auto add = [&](const SurfacePoint& point) {
-    const double z = point.angle, road = std::sin(z) < 0 ? scene.road(z) : scene.outer_radius;
-    radius.push_back((scene.outer_radius + point.displacement) * length);
+    const double z = point.angle, road = std::sin(z) < 0 ? scene.road(z) * length : b;
+    radius.push_back(b + point.displacement);
     angle.push_back(z);
-    displacement.push_back(point.displacement * length);
-    pressure.push_back(pressure_at(result.contact_rows, z) * units.of(Quantity::pressure));
-    gap.push_back(road < scene.outer_radius ? (road - point.displacement) * length
-                                            : std::numeric_limits<double>::quiet_NaN());
+    displacement.push_back(point.displacement);
+    pressure.push_back(pressure_at(result.contact_rows, z));
+    gap.push_back(road < b ? road - point.displacement : std::numeric_limits<double>::quiet_NaN());
   };
   for (const SurfacePoint& point : result.surface)
     add(point);
   add({result.surface.front().angle + 2 * dealii::numbers::PI,
        result.surface.front().displacement});
-  const auto name = [&units](const std::string& field, Quantity quantity) {
-    return field + units.in_brackets(quantity);
+  const auto name = [&scene](const std::string& field, Quantity quantity) {
+    return field + scene.units.in_brackets(quantity);
   };
   return line_vtu(radius, {{name("angle", Quantity::angle), angle},
                            {name("displacement", Quantity::length), displacement},
@@ -95,13 +94,13 @@ std::string surface_vtu(const Scene& scene, const Result& result, const Units& u
                            {name("gap", Quantity::length), gap}});
 }
 
-std::string road_vtu(const Scene& scene, const Units& units) {
+std::string road_vtu(const Scene& scene) {
   const std::vector<double> angles =
       angles_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance));
   std::vector<double> radius;
   for (const double z : angles)
-    radius.push_back((scene.outer_radius + scene.road(z)) * units.length);
-  return line_vtu(radius, {{"angle" + units.in_brackets(Quantity::angle), angles}});
+    radius.push_back((scene.outer_radius + scene.road(z)) * scene.units.length);
+  return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
 }
 
 } // namespace rollwave

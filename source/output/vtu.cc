@@ -29,8 +29,8 @@ using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
 /// Makes a patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCells {
 public:
-  DeformedCells(const Solution& solution, const Units& units)
-      : solution(solution), units(units), space(*solution.space),
+  explicit DeformedCells(const Solution& solution)
+      : solution(solution), units(solution.scene.units), space(*solution.space),
         element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
@@ -117,7 +117,8 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 }
 
 /// What the scene is, for captions.
-void write_field_data(std::ostream& out, const Solution& solution, const Units& units) {
+void write_field_data(std::ostream& out, const Solution& solution) {
+  const Units& units = solution.scene.units;
   out.precision(std::numeric_limits<double>::max_digits10);
   out << "<FieldData>\n";
   for (const auto& [name, value, quantity] :
@@ -139,13 +140,13 @@ void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind k
                                  DeformedCells::vectors(units), vtk_flags(solution, kind));
 }
 
-void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind,
-                        const Units& units) {
-  DeformedCells cells(solution, units);
+void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind) {
+  const Units& units = solution.scene.units;
+  DeformedCells cells(solution);
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
   try {
     DataOutBase::write_vtu_header(out, flags);
-    write_field_data(out, solution, units);
+    write_field_data(out, solution);
     std::vector<Patch> patches;
     const auto write_piece = [&] {
       DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution, units),

@@ -46,19 +46,6 @@ void declare_cylinder(Declarations& keys, Parameters& p) {
       "2 pi.");
 }
 
-/// Names that fit into every kind of file.
-UnitNames parse_unit_names(const std::string& text) {
-  const auto names = split(text, ',');
-  if (names.empty())
-    return {};
-  const bool is_named = std::all_of(names.begin(), names.end(), [](const std::string& name) {
-    return !name.empty() && name.find_first_of(" \"'<>&[]") == std::string::npos;
-  });
-  if (names.size() != 3 || !is_named)
-    throw std::invalid_argument("three names with commas between them, as in m, s, N");
-  return {names[0], names[1], names[2]};
-}
-
 void declare_material(Declarations& keys, Parameters& p) {
   constexpr double smallest = 1e-30, largest = 1e30;
   keys.enter("Material");
@@ -205,28 +192,6 @@ void declare_solver(Declarations& keys, Parameters& p) {
       "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
 }
 
-void declare_output(Declarations& keys, Parameters& p) {
-  keys.enter("Output");
-  keys.add_text("Directory", p.output.directory,
-                "The directory of the files, made when missing, seen from where the program is "
-                "called: output and the name of the parameter file where this key is left out.");
-  keys.add(
-      "Files", "summary, contact, solution, surface, plot",
-      [&p](const std::string& text) { p.output.files = parse_files(text); },
-      "The files to write beside parameters.prm: any of summary (summary.json), contact "
-      "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
-      "study.svg of a study), or all.");
-  keys.add_choice<CellKind>(
-      "Cells", p.output.cells, {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
-      "The cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
-      "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
-  keys.add(
-      "Unit names", "",
-      [&p](const std::string& text) { p.material.unit_names = parse_unit_names(text); },
-      "Empty, or how the units of length, time and force are called, as in \"m, s, N\" or \"mm, s, "
-      "N\": screen, files and pictures then name the unit of each number.");
-}
-
 /// Every key of the program: name, default, range, unit and text, each in one statement.
 void declare(Declarations& keys, Parameters& p) {
   declare_cylinder(keys, p);
@@ -237,7 +202,7 @@ void declare(Declarations& keys, Parameters& p) {
   declare_contact(keys, p);
   declare_solver(keys, p);
   declare_study(keys, p.study);
-  declare_output(keys, p);
+  declare_output(keys, p.output, p.material.unit_names);
 }
 
 /// Keys of earlier versions, which say what to do instead.

@@ -117,7 +117,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
   scene.angular_velocity = cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity);
-  scene.force_text = cylinder.radial_force;
+  scene.force_text = text(cylinder.radial_force, " over ", material.shear_modulus);
   const double force_density = material.shear_modulus / unit; // 1 in the scene, in the user's units
   const std::optional<double> constant = constant_force(cylinder.radial_force);
   if (!constant)

@@ -25,15 +25,6 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-double figure_of(const Study& study, unsigned int run, const std::string& name) {
-  return study.figure(run, name).value_or(nothing);
-}
-
-bool any(const Study& study, const std::string& name) {
-  return std::any_of(study.runs.begin(), study.runs.end(),
-                     [&](const auto& run) { return run && run->figure(name).value_or(0) > 0; });
-}
-
 /// The numbers that a key takes in all runs; none where it has a value that is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
   std::vector<double> numbers;
@@ -94,9 +85,9 @@ std::string title_of(const Study& study) {
 }
 
 /// For each choice of all keys but those that vary fastest a curve of a figure over the first of
-/// these.
+/// these, with that of another as marks.
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
-                             const std::string& figure, bool has_marks) {
+                             const std::string& figure, const std::string& marks = "") {
   std::vector<Curve> curves;
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
@@ -106,10 +97,9 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The keys before them change together with the text.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], figure_of(study, run, figure));
-    if (has_marks)
-      curves.back().marks.emplace_back(x[run], plan.published_steps ? double(*plan.published_steps)
-                                                                    : nothing);
+    curves.back().points.emplace_back(x[run], study.figure(run, figure).value_or(nothing));
+    if (study.has(marks))
+      curves.back().marks.emplace_back(x[run], study.figure(run, marks).value_or(nothing));
   }
   return curves;
 }
@@ -129,16 +119,8 @@ std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
         {"half_width", "half-width of contact (angle)", Quantity::angle},
         {"peak_pressure", "peak pressure", Quantity::pressure}})
     panels.push_back({x_label_of(study), name + units_of(study).in_brackets(quantity),
-                      distinct(curves_of(study, x, figure, false))});
+                      curves_of(study, x, figure)});
   return panels;
-}
-
-Panel steps_over_key(const Study& study, const std::vector<double>& x) {
-  const bool has_marks =
-      std::any_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return plan.published_steps.has_value(); });
-  return {x_label_of(study), "contact steps",
-          distinct(curves_of(study, x, "contact_steps", has_marks)), false, true};
 }
 
 /// The error over a figure for each family of runs that differ in the fineness of their meshes.
@@ -162,7 +144,6 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
     if (!curve.points.empty())
       panel.curves.push_back(std::move(curve));
   }
-  panel.curves = distinct(std::move(panel.curves));
   panel.slopes.assign(slopes.begin(), slopes.end());
   return panel;
 }
@@ -177,7 +158,6 @@ Panel profiles(const Study& study) {
       for (const auto& [z, pressure] : study.runs[run]->pressure)
         panel.curves.back().points.emplace_back(z - 3 * numbers::PI / 2, pressure);
     }
-  panel.curves = distinct(std::move(panel.curves));
   return panel;
 }
 
@@ -195,7 +175,8 @@ std::optional<Drawing> map_of_load(const Study& study) {
   for (unsigned int run = 0; run < x.size(); ++run) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
-    lines.back().push_back({{x[run], y[run], figure_of(study, run, "vertical_load")}});
+    lines.back().push_back(
+        {{x[run], y[run], study.figure(run, "vertical_load").value_or(nothing)}});
   }
   const Units units = units_of(study);
   return plot_map("vertical load" + units.in_brackets(Quantity::force) + "; " + title_of(study),
@@ -219,14 +200,15 @@ std::vector<std::pair<std::string, Drawing>> draw(const Study& study) {
       add("study-curves.svg", curves(study, x));
     add("study-profiles.svg", {profiles(study)});
   }
-  if (any(study, "error_relative") && find_families(study).size() < study.plans.size())
+  if (study.has("error_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
          {std::tuple("study-h.svg", "h_max", "largest diameter of a cell h", 1.),
           {"study-unknowns.svg", "dofs", "unknowns", -0.5},
           {"study-time.svg", "seconds", "seconds", 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())
-    add("study.svg", {steps_over_key(study, x)});
+    add("study.svg", {{x_label_of(study), "contact steps",
+                       curves_of(study, x, "contact_steps", "published_steps"), false, true}});
   return drawings;
 }
 
@@ -263,10 +245,15 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
       std::any_of(study.runs.begin(), study.runs.end(),
                   [](const auto& run) { return run && run->is_solved(); }))
     drawings = draw(study);
-  std::ostringstream table;
-  print_study(table, study);
-  add("study.txt", table.str());
-  add("study.tex", StudyTable(study).tex());
+  const StudyTable table(study);
+  std::ostringstream text;
+  text << table.header();
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run])
+      text << table.row(run);
+  print_study_notes(text, study);
+  add("study.txt", text.str());
+  add("study.tex", table.tex());
   const auto& kinds = parameters.study.files_of_each_run;
   if (std::count(kinds.begin(), kinds.end(), OutputFile::solution) > 0)
     add("study.pvd", pvd_of(study, directory));

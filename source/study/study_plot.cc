@@ -81,8 +81,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigne
   script << '\n';
 }
 
-} // namespace
-
+/// Evenly chosen curves, where there are more than can be told apart.
 std::vector<Curve> distinct(std::vector<Curve> curves) {
   std::vector<Curve> chosen;
   const std::size_t n = curves.size(), n_chosen = std::min<std::size_t>(n, most_curves);
@@ -91,7 +90,11 @@ std::vector<Curve> distinct(std::vector<Curve> curves) {
   return chosen;
 }
 
-Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels) {
+} // namespace
+
+Drawing plot_panels(const std::string& title, std::vector<Panel> panels) {
+  for (Panel& panel : panels)
+    panel.curves = distinct(std::move(panel.curves));
   std::ostringstream script;
   script.precision(9);
   script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";

@@ -2,7 +2,7 @@
 #define ROLLWAVE_OUTPUT_RESULT_FILES_H
 
 #include "rollwave/output/output_directory.h"
-#include "rollwave/run/solution.h"
+#include "rollwave/run/simulation.h"
 
 namespace rollwave {
 

@@ -84,7 +84,7 @@ struct Scene {
     return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
   }
 
-  std::string force_text = {}; ///< the expression of f as the user gave it
+  std::string force_text = {}; ///< the user's expression and modulus, which make f
 
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
