@@ -136,9 +136,12 @@ TEST(Units, HoldForTheRowsOfAStudy) {
 }
 
 TEST(Units, NameTheCriticalSpeedThatIsExceeded) {
-  EXPECT_NO_THROW(make_scene(parameters_of(cylinder(true, 1))));
-  auto settings = cylinder(true, 1.0000001);
-  settings.push_back(assignment("Road/Distance", 0.8 * b));
+  const std::string distance = assignment("Road/Distance", 0.8 * b);
+  auto settings = cylinder(true, 1);
+  settings.push_back(distance);
+  EXPECT_NO_THROW(make_scene(parameters_of(settings)));
+  settings = cylinder(true, 1.0000001);
+  settings.push_back(distance);
   try {
     make_scene(parameters_of(settings));
     FAIL();

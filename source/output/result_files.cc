@@ -97,9 +97,6 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   std::exception_ptr failure;
   {
     const Work::Phase phase(work, "output");
-    std::optional<Drawing> drawing; // made while the files are written
-    if (parameters.wants(OutputFile::plot) && is_first)
-      drawing.emplace(plot_scene(scene, result));
     if (parameters.wants(OutputFile::contact) && is_first)
       add("contact.csv", contact_csv(result, scene.units));
     if (is_first) {
@@ -120,8 +117,8 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
           throw;
         failure = std::current_exception();
       }
-    if (drawing) {
-      if (const auto [svg, reason] = drawing->take(); reason.empty())
+    if (parameters.wants(OutputFile::plot) && is_first) {
+      if (const auto [svg, reason] = plot_scene(scene, result); reason.empty())
         add("scene.svg", svg);
       else
         written.remarks.push_back("scene.svg was not drawn: " + reason);

@@ -22,18 +22,19 @@ double zoom_of(const Scene& scene, const Result& result) {
 }
 
 std::string title_of(const Scene& scene, const Result& result) {
+  const double b = scene.outer_radius;
+  const bool is_given = scene.units.material.is_given();
   std::ostringstream title;
   title.precision(4);
-  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree
-        << ":  omega b = " << scene.angular_velocity * scene.outer_radius
-        << ",  c / b = " << scene.road_distance / scene.outer_radius
-        << ",  a / b = " << scene.inner_radius / scene.outer_radius;
-  if (scene.units.material.is_given())
+  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  "
+        << (is_given ? "omega / critical = " : "omega b = ") << scene.angular_velocity * b
+        << ",  c / b = " << scene.road_distance / b << ",  a / b = " << scene.inner_radius / b;
+  if (is_given)
     title << ",  F = " << result.patch.force << scene.units.after(Quantity::force);
   else
-    title << ",  F / b = " << result.patch.force / (scene.outer_radius * scene.units.length);
+    title << ",  F / b = " << result.patch.force / (b * scene.units.length);
   if (scene.road_curvature != 0)
-    title << ",  kappa b = " << scene.road_curvature * scene.outer_radius;
+    title << ",  kappa b = " << scene.road_curvature * b;
   return title.str();
 }
 
@@ -129,7 +130,7 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 } // namespace
 
-Drawing plot_scene(const Scene& scene, const Result& result) {
+Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
   const double zoom = zoom_of(scene, result);
   // Of the frame of the zoom, which has 0.40 of the width and 0.25 of the height.
@@ -154,7 +155,7 @@ Drawing plot_scene(const Scene& scene, const Result& result) {
   if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
   script << "set ylabel 'pressure" << pressure_unit(scene.units) << "'\n" << pressure;
-  return Drawing(script.str(), width, height);
+  return draw(script.str(), width, height);
 }
 
 } // namespace rollwave

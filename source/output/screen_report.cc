@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <regex>
 #include <sstream>
 #include <tuple>
-#include <vector>
 
 namespace rollwave {
 
@@ -64,15 +64,11 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, c
   print_table(out, table);
 }
 
-/// The first file whose name ends with one of @p endings; empty without one.
-std::string first_file(const WrittenFiles& written, const std::vector<std::string>& endings) {
+/// The first file whose name ends as @p pattern says; empty without one.
+std::string first_file(const WrittenFiles& written, const std::string& pattern) {
   for (const auto& file : written.files)
-    for (const std::string& ending : endings) {
-      const std::string name = file.string();
-      if (name.size() > ending.size() &&
-          name.compare(name.size() - ending.size(), ending.size(), ending) == 0)
-        return name;
-    }
+    if (std::regex_search(file.string(), std::regex(pattern + '$')))
+      return file.string();
   return "";
 }
 
@@ -122,9 +118,10 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
   out << cylinder.radial_force << '\n';
   if (material.is_given())
     out << "Material   mu = " << material.shear_modulus << unit(Quantity::pressure)
-        << ", rho = " << material.density << ", width = " << material.width << length
-        << ", critical speed " << material.wave_speed() / cylinder.outer_radius
-        << unit(Quantity::angular_velocity) << '\n';
+        << ", rho = " << material.density << unit(Quantity::density)
+        << ", width = " << material.width << length << ", critical speed "
+        << material.wave_speed() / cylinder.outer_radius << unit(Quantity::angular_velocity)
+        << '\n';
   out << "Road       " << (road.load ? "load " : "distance ") << road.load.value_or(road.distance)
       << unit(road.load ? Quantity::force : Quantity::length);
   if (road.curvature != 0)
@@ -143,7 +140,7 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
       << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min << " to "
       << mesh.h_max << length << "\n\nContact steps";
   if (result.rho > 0)
-    out << " by Uzawa's method, rho = " << result.rho;
+    out << " by Uzawa's method, rho = " << result.rho << unit(Quantity::force_density);
   else
     out << " by the active set method";
   out << '\n';
@@ -197,8 +194,8 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   }
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
-  if (const std::string picture = first_file(written, {".svg"}); !picture.empty()) {
-    const std::string field = first_file(written, {"study.pvd", "solution.vtu", "solution.pvtu"});
+  if (const std::string picture = first_file(written, "\\.svg"); !picture.empty()) {
+    const std::string field = first_file(written, "(study\\.pvd|solution\\.p?vtu)");
     out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field
         << '\n';
   }

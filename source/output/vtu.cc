@@ -20,9 +20,6 @@ namespace {
 
 using Patch = DataOutBase::Patch<2>;
 
-/// A piece of the file is as many cells: their patches take several times the memory of the mesh.
-constexpr std::size_t cells_in_piece = 50000;
-
 using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
                                       DataComponentInterpretation::DataComponentInterpretation>>;
 
@@ -51,7 +48,7 @@ public:
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(field_names(solution, units).size() + 2, u.size());
+    patch.data.reinit(field_names(solution).size() + 2, u.size());
     for (unsigned int i = 0; i < u.size(); ++i) {
       const unsigned int node = numbering[i];
       const double r = values.quadrature_point(node)[0], z = values.quadrature_point(node)[1];
@@ -77,7 +74,8 @@ public:
   }
 
   /// The names of scalars and of components of vectors.
-  static std::vector<std::string> field_names(const Solution& solution, const Units& units) {
+  static std::vector<std::string> field_names(const Solution& solution) {
+    const Units& units = solution.scene.units;
     const std::string length = units.in_brackets(Quantity::length);
     std::vector<std::string> names = {"displacement" + length,
                                       "radial_stress" + units.in_brackets(Quantity::pressure),
@@ -91,8 +89,8 @@ public:
   }
 
   /// The vectors among them.
-  static Ranges vectors(const Units& units) {
-    return {{4, 5, "displacement_vector" + units.in_brackets(Quantity::length),
+  static Ranges vectors(const Solution& solution) {
+    return {{4, 5, "displacement_vector" + solution.scene.units.in_brackets(Quantity::length),
              DataComponentInterpretation::component_is_part_of_vector}};
   }
 
@@ -135,32 +133,22 @@ void write_field_data(std::ostream& out, const Solution& solution) {
 
 void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind kind,
                          const std::vector<std::string>& pieces) {
-  const Units& units = solution.scene.units;
-  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution, units),
-                                 DeformedCells::vectors(units), vtk_flags(solution, kind));
+  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution),
+                                 DeformedCells::vectors(solution), vtk_flags(solution, kind));
 }
 
 void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind) {
-  const Units& units = solution.scene.units;
   DeformedCells cells(solution);
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
   try {
     DataOutBase::write_vtu_header(out, flags);
     write_field_data(out, solution);
     std::vector<Patch> patches;
-    const auto write_piece = [&] {
-      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution, units),
-                                  DeformedCells::vectors(units), flags, out);
-      patches.clear();
-    };
-    for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {
-      if (!cell->is_locally_owned())
-        continue;
-      if (patches.size() == cells_in_piece)
-        write_piece();
-      patches.push_back(cells.patch(cell, patches.size()));
-    }
-    write_piece();
+    for (const auto& cell : solution.space->dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        patches.push_back(cells.patch(cell, patches.size()));
+    DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
+                                DeformedCells::vectors(solution), flags, out);
     DataOutBase::write_vtu_footer(out);
   } catch (const StandardExceptions::ExcIO&) {
     // The stream remembers its failure for its owner, who knows the file's name.

@@ -62,7 +62,7 @@ Result in_users_units(Result result, const Units& units) {
   if (auto& errors = result.errors) {
     convert(energy_norm, {&errors->energy_norm});
     convert(units.of(Quantity::area), {&errors->l2_norm});
-    convert(pressure * std::sqrt(length), {&errors->pressure});
+    convert(units.of(Quantity::pressure_norm), {&errors->pressure});
     convert(force, {&errors->force});
     convert(energy, {&errors->energy});
     if (auto& distance = errors->exact_distance)
@@ -76,7 +76,7 @@ Result in_users_units(Result result, const Units& units) {
     convert(length, {&step.penetration});
     convert(pressure, {&step.lowest_pressure});
   }
-  convert(pressure / length, {&result.rho});
+  convert(units.of(Quantity::force_density), {&result.rho});
   for (ContactRow& row : result.contact_rows) {
     convert(length, {&row.displacement, &row.road, &row.gap});
     convert(pressure, {&row.pressure});

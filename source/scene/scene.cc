@@ -118,7 +118,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.outer_radius = b / unit;
   scene.angular_velocity = cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity);
   scene.force_text = text(cylinder.radial_force, " over ", material.shear_modulus);
-  const double force_density = material.shear_modulus / unit; // 1 in the scene, in the user's units
+  const double force_density = scene.units.of(Quantity::force_density);
   const std::optional<double> constant = constant_force(cylinder.radial_force);
   if (!constant)
     scene.force = [unit, force_density, f = parse_force(cylinder.radial_force, (a + b) / 2)](

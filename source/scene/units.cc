@@ -20,8 +20,14 @@ Units::Unit Units::unit(Quantity quantity) const {
     return {length * length, m + "^2"};
   case Quantity::angular_velocity:
     return {material.wave_speed() / length, "rad/" + s};
+  case Quantity::density:
+    return {1, newton + ' ' + s + "^2/" + m + "^4"};
   case Quantity::pressure:
     return {material.shear_modulus, newton + '/' + m + "^2"};
+  case Quantity::pressure_norm:
+    return {material.shear_modulus * std::sqrt(length), newton + '/' + m + "^(3/2)"};
+  case Quantity::force_density:
+    return {material.shear_modulus / length, newton + '/' + m + "^3"};
   case Quantity::stiffness:
     return {stiffness, newton + '/' + m};
   case Quantity::force:

@@ -163,7 +163,7 @@ Panel profiles(const Study& study) {
 
 /// The vertical load over two keys; nullopt unless these alone vary, are of cylinder and road, and
 /// numbers.
-std::optional<Drawing> map_of_load(const Study& study) {
+std::optional<Picture> map_of_load(const Study& study) {
   if (study.first_keys.size() != 2 || !study.plans.front().scene.empty())
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_keys[1]);
@@ -183,18 +183,18 @@ std::optional<Drawing> map_of_load(const Study& study) {
                   words(varied[0], units), words(varied[study.first_keys[1]], units), lines);
 }
 
-/// The plots by their names, being drawn.
-std::vector<std::pair<std::string, Drawing>> draw(const Study& study) {
-  std::vector<std::pair<std::string, Drawing>> drawings;
+/// The plots by their names.
+std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
+  std::vector<std::pair<std::string, Picture>> pictures;
   const std::string title = title_of(study);
   const auto add = [&](const std::string& name, const std::vector<Panel>& panels) {
     if (!panels.front().curves.empty())
-      drawings.emplace_back(name, plot_panels(title, panels));
+      pictures.emplace_back(name, plot_panels(title, panels));
   };
   const auto x =
       study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
   if (auto map = map_of_load(study))
-    drawings.emplace_back("study-map.svg", std::move(*map));
+    pictures.emplace_back("study-map.svg", std::move(*map));
   if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
     if (!x.empty())
       add("study-curves.svg", curves(study, x));
@@ -209,7 +209,7 @@ std::vector<std::pair<std::string, Drawing>> draw(const Study& study) {
   if (!x.empty())
     add("study.svg", {{x_label_of(study), "contact steps",
                        curves_of(study, x, "contact_steps", "published_steps"), false, true}});
-  return drawings;
+  return pictures;
 }
 
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
@@ -240,11 +240,6 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
-  std::vector<std::pair<std::string, Drawing>> drawings;
-  if (parameters.wants(OutputFile::plot) &&
-      std::any_of(study.runs.begin(), study.runs.end(),
-                  [](const auto& run) { return run && run->is_solved(); }))
-    drawings = draw(study);
   const StudyTable table(study);
   std::ostringstream text;
   text << table.header();
@@ -257,11 +252,14 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
   const auto& kinds = parameters.study.files_of_each_run;
   if (std::count(kinds.begin(), kinds.end(), OutputFile::solution) > 0)
     add("study.pvd", pvd_of(study, directory));
-  for (auto& [name, drawing] : drawings)
-    if (const auto [svg, failure] = drawing.take(); failure.empty())
-      add(name, svg);
-    else
-      written.remarks.push_back(name + " was not drawn: " + failure);
+  const bool is_solved = std::any_of(study.runs.begin(), study.runs.end(),
+                                     [](const auto& run) { return run && run->is_solved(); });
+  if (parameters.wants(OutputFile::plot) && is_solved)
+    for (const auto& [name, picture] : draw_study(study))
+      if (picture.failure.empty())
+        add(name, picture.svg);
+      else
+        written.remarks.push_back(name + " was not drawn: " + picture.failure);
   return written;
 }
 

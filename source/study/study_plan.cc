@@ -76,7 +76,7 @@ const std::map<std::string, Words> words_of_keys = {
     {"Road/Load", {"load", "L", Quantity::force}},
     {"Road/Curvature", {"curvature of the road", "κ"}},
     {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
-    {"Contact/Rho", {"step length", "ρ"}}};
+    {"Contact/Rho", {"step length", "ρ", Quantity::force_density}}};
 
 } // namespace
 

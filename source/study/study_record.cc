@@ -62,7 +62,7 @@ void add_errors(const Result& result, std::vector<Figure>& figures) {
        {"error_energy_norm", errors ? errors->energy_norm : none, Quantity::energy_norm},
        {"error_relative", errors ? errors->relative_energy_norm : none},
        {"error_l2_norm", errors ? errors->l2_norm : none, Quantity::area},
-       {"error_pressure", errors ? errors->pressure : none},
+       {"error_pressure", errors ? errors->pressure : none, Quantity::pressure_norm},
        {"error_force", errors ? errors->force : none, Quantity::force},
        {"error_energy", errors ? errors->energy : none, Quantity::energy},
        {"error_half_width", errors ? errors->half_width : none, Quantity::angle},

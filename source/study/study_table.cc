@@ -66,12 +66,13 @@ bool any(const Study& study, const std::function<bool(const RunPlan&)>& is) {
 StudyTable::StudyTable(const Study& study) : study(study), families(find_families(study)) {
   columns.push_back({"run", 4, [](unsigned int run) { return std::to_string(run + 1); }});
   add_settings();
+  const Units units{1, study.plans.front().parameters.material};
   const bool is_certified =
       any(study, [](const RunPlan& plan) { return plan.parameters.certificate.error_bound; });
   if (any(study, [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; }))
     add_figure("N", 9, "dofs", 9);
   else
-    add_figure("h", 8, "h_max", 3);
+    add_figure("h" + units.in_brackets(Quantity::length), 8, "h_max", 3);
   add_figure("steps", 5, "contact_steps", 9);
   if (study.has("published_steps"))
     add_figure("published", 9, "published_steps", 9);
@@ -83,7 +84,7 @@ StudyTable::StudyTable(const Study& study) : study(study), families(find_familie
     columns.push_back({"order", 6, [this](unsigned int run) {
                          return text_of(observed_order(this->study, families, run), 3);
                        }});
-  add_figure("F", 14, "force", 9);
+  add_figure("F" + units.in_brackets(Quantity::force), 14, "force", 9);
   add_figure("seconds", 8, "seconds", 3);
   // The first keys are left out where all are too many.
   constexpr unsigned int widest = 100, outcome = 11;

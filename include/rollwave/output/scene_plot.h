@@ -9,7 +9,7 @@ namespace rollwave {
 
 /// The scene; the surroundings of the contact at true scale; over the angle gap and pressure there.
 /// @param result in the user's units
-Drawing plot_scene(const Scene& scene, const Result& result);
+Picture plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave
 

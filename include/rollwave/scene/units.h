@@ -32,9 +32,12 @@ enum class Quantity {
   length,
   area,
   angular_velocity,
+  density, ///< that of the material, which the scene has none of
   pressure,
+  pressure_norm, ///< pressure times the root of a length, see TrueErrors
   force,
-  stiffness, ///< force over length
+  force_density, ///< force over volume, or pressure over length
+  stiffness,     ///< force over length
   energy,
   energy_norm ///< the square root of an energy
 };

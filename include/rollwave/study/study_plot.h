@@ -28,10 +28,10 @@ struct Panel {
 
 /// Panels beside and below each other. They have the same curves, with one legend below them; of
 /// more curves than can be told apart, evenly chosen ones.
-Drawing plot_panels(const std::string& title, std::vector<Panel> panels);
+Picture plot_panels(const std::string& title, std::vector<Panel> panels);
 
 /// Values over a grid of x and y as colours with contour lines, in lines of constant x.
-Drawing plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines);
 
 } // namespace rollwave
