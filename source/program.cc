@@ -15,17 +15,16 @@
 #include "rollwave/verify/true_errors.h"
 
 #include <algorithm>
-#include <optional>
 #include <ostream>
 
 namespace rollwave {
 
 namespace {
 
-void make_study(const Parameters& parameters, OutputDirectory& directory,
+void make_study(Study& study, const Parameters& parameters, OutputDirectory& directory,
                 const Processes& processes, std::ostream& out) {
   out << version_text() << "\n\n";
-  const Study study = run_study(parameters, directory.path(), out, processes.communicator());
+  run_study(study, parameters, directory.path(), out, processes.communicator());
   if (processes.is_first()) {
     print_study_notes(out, study);
     WrittenFiles written = write_study(directory.path(), parameters, study);
@@ -63,10 +62,10 @@ void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirecto
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, processes.communicator());
-  report_result(out, to_lengths(solution.result, scene.unit));
+  report_result(out, in_users_units(solution.result, scene.units), scene.units);
   if (verifies)
     verify(solution, out);
-  WrittenFiles written = write_results(directory.path(), solution.scene, parameters, solution);
+  WrittenFiles written = write_results(directory.path(), parameters, solution);
   directory.remove_files_of_earlier_runs(written);
   report_end(out, solution.result.work, written);
   processes.wait_for_first();
@@ -92,8 +91,11 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
   try {
-    std::optional<Scene> scene; // the runs of a study have their own
-    if (!is_study)
+    Study study;
+    Scene scene; // the runs of a study have their own
+    if (is_study)
+      study = plan_study(parameters, processes.communicator());
+    else
       scene = make_scene(parameters);
     OutputDirectory directory(parameters, processes.communicator());
     const auto& settings = parameters.settings;
@@ -102,9 +104,9 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
       out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
     try {
       if (is_study)
-        make_study(parameters, directory, processes, out);
+        make_study(study, parameters, directory, processes, out);
       else
-        solve_scene(*scene, parameters, directory, processes, line.verify, out);
+        solve_scene(scene, parameters, directory, processes, line.verify, out);
     } catch (...) {
       report_earlier_files(out, directory);
       throw;

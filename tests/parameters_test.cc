@@ -217,8 +217,8 @@ TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
   const Scene scene =
       make_scene(parameters_of({"Cylinder/Outer radius=2", "Road/Distance=1.7",
                                 "Cylinder/Angular velocity=0.1", "Cylinder/Radial force=0.1*r"}));
-  EXPECT_NEAR(scene.road(scene.zone_begin) * scene.unit, 2, 1e-13);
-  EXPECT_NEAR(scene.road(scene.zone_end) * scene.unit, 2, 1e-13);
+  EXPECT_NEAR(scene.road(scene.zone_begin) * scene.units.length, 2, 1e-13);
+  EXPECT_NEAR(scene.road(scene.zone_end) * scene.units.length, 2, 1e-13);
 }
 
 TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
@@ -244,10 +244,10 @@ TEST(Scene, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
   EXPECT_GE(scene.outer_radius, 1);
   EXPECT_LT(scene.outer_radius, 2);
   int exponent = 0;
-  EXPECT_EQ(std::frexp(scene.unit, &exponent), 0.5);
-  EXPECT_EQ(scene.inner_radius * scene.unit, 3e-150);
-  EXPECT_EQ(scene.angular_velocity / scene.unit, 1e149);
-  EXPECT_EQ(scene.force(1, 0) / scene.unit, 1e150);
+  EXPECT_EQ(std::frexp(scene.units.length, &exponent), 0.5);
+  EXPECT_EQ(scene.inner_radius * scene.units.length, 3e-150);
+  EXPECT_EQ(scene.angular_velocity / scene.units.length, 1e149);
+  EXPECT_EQ(scene.force(1, 0) / scene.units.length, 1e150);
 }
 
 TEST(Scene, ForceIsAnExpressionInRAndZ) {

@@ -108,14 +108,14 @@ bool compare_with_exact(const Scene& scene, const Parameters& parameters, const 
 /// distance, its slope -G grows.
 void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters& parameters,
                                 Solution nearest) {
-  const double c = parameters.road.distance / scene.unit;
+  const double c = parameters.road.distance / scene.units.length;
   // Not less than what distances resolve.
   const double step = std::max(draw.power_of_ten(-3, -1) * std::abs(scene.outer_radius - c), 1e-12);
   std::vector<Result> results = {nearest.result};
   Solution solution = std::move(nearest);
   for (const int i : {1, 2}) {
     const Scene farther = with_distance(scene, c + i * step);
-    solution = simulate_next(farther, parameters, std::move(solution));
+    solution = simulate(farther, parameters, MPI_COMM_SELF, std::move(solution));
     results.push_back(solution.result);
   }
   const double energy = results[0].energy.norm_squared + std::abs(results[0].energy.value);
@@ -142,7 +142,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      Solution solution = simulate_next(scene, parameters, {});
+      Solution solution = simulate(scene, parameters, MPI_COMM_SELF, Solution());
       const Result& result = solution.result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;

@@ -26,7 +26,7 @@ Result solve_scaled(double scale) {
        assignment("Cylinder/Radial force", 0.25 / scale), assignment("Road/Distance", 0.9 * scale),
        "Mesh/Radial cells=3", "Mesh/Angular cells=40", "Mesh/Adaptive cycles=3"});
   const Scene scene = make_scene(parameters);
-  return to_lengths(simulate(scene, parameters).result, scene.unit);
+  return in_users_units(simulate(scene, parameters).result, scene.units);
 }
 
 TEST(Stability, PowersOfTwoChangeNoDigit) {

@@ -20,12 +20,7 @@ using namespace rollwave;
 namespace {
 
 Study planned(const std::vector<std::string>& assignments) {
-  const Parameters parameters = parameters_of(assignments);
-  Study study;
-  study.plans = plan_runs(parameters, 1);
-  study.runs.resize(study.plans.size());
-  study.has_true_errors = parameters.study.true_errors;
-  return study;
+  return plan_study(parameters_of(assignments));
 }
 
 StudyRun some_run() {
@@ -41,7 +36,7 @@ StudyRun some_run() {
 TEST(StudyRecord, IsReadAsItWasWritten) {
   const Study study = planned({"Road/Contact zone=4.50, 5", "Study/Vary=Mesh/Degree = 1"});
   const StudyRun run = some_run();
-  const std::string line = to_json(study.plans[0], run) + '\n';
+  const std::string line = study_line(study.plans[0], run) + '\n';
   const auto read = read_study_runs(line + line);
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].first, study.plans[0].identity);
@@ -84,7 +79,8 @@ protected:
     Parameters parameters = parameters_of(all);
     parameters.output.directory = directory.string();
     std::ostringstream out;
-    const Study study = run_study(parameters, directory, out);
+    Study study = plan_study(parameters);
+    run_study(study, parameters, directory, out);
     unsigned int count = 0;
     const std::string text = out.str();
     for (auto at = text.find("done before"); at != std::string::npos;
@@ -228,7 +224,7 @@ TEST(StudyTable, HasAtMostAHundredColumns) {
     run->remarks = {"a remark with the number 0." + std::to_string(&run - &study.runs[0])};
   }
   std::ostringstream text;
-  print_study(text, study);
+  print_study_notes(text, study);
   const StudyTable table(study);
   unsigned int widest = 0;
   std::istringstream rows(table.header() + table.row(0) + table.row(1));

@@ -49,7 +49,7 @@ protected:
   Result next(const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_with(assignments);
     const Scene scene = make_scene(parameters);
-    solution = simulate_next(scene, parameters, std::move(solution));
+    solution = simulate(scene, parameters, MPI_COMM_SELF, std::move(solution));
     // A zone that is left to the program depends on the distance.
     const Result single = simulate(scene, parameters).result;
     expect_same_answer(solution.result, single);
@@ -116,7 +116,8 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
   std::ostringstream out;
   Parameters parameters = parameters_of(assignments);
   parameters.output.directory = directory.string();
-  const Study study = run_study(parameters, directory, out);
+  Study study = plan_study(parameters);
+  run_study(study, parameters, directory, out);
   std::filesystem::remove_all(directory);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
@@ -124,7 +125,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
     const StudyRun& row = *study.runs[run];
     ASSERT_TRUE(row.is_solved()) << row.failure;
     const Scene scene = make_scene(plan.parameters);
-    const Result single = to_lengths(simulate(scene, plan.parameters).result, scene.unit);
+    const Result single = in_users_units(simulate(scene, plan.parameters).result, scene.units);
     const double size = single.energy.norm_squared;
     EXPECT_NEAR(*row.figure("force"), single.patch.force,
                 1e-9 * (std::abs(single.patch.force) + std::sqrt(size)));
@@ -144,6 +145,8 @@ TEST(SweepStudy, RowsAreSingleRuns) {
   expect_rows_are_single_runs({"Cylinder/Radial force=20", "Study/Vary=Road/Distance = 0.9 | 0.6"});
   expect_rows_are_single_runs({"Cylinder/Radial force=20", "Mesh/Degree=1", "Solver/Kind=iterative",
                                "Study/Scenes=far: Road/Distance = 0.9; near: Road/Distance = 0.6"});
+  expect_rows_are_single_runs(
+      {"Cylinder/Radial force=3*r", "Study/Vary=Material/Shear modulus = 3 | 1"});
   expect_rows_are_single_runs({"Study/Vary=Cylinder/Radial force = 12 | 0; Road/Distance = 1.8 | "
                                "0.7; Cylinder/Angular velocity = 0.5 | 0.9"});
 }

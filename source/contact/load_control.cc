@@ -19,7 +19,8 @@ namespace {
   std::ostringstream text;
   text.precision(6);
   text << "no distance gives this load: where the road is nearest to the axle, at "
-       << scene.least_distance * scene.unit << ", it is about " << largest * scene.unit;
+       << scene.least_distance * scene.units.length << ", it is about "
+       << largest * scene.units.of(Quantity::force);
   throw BadValue("Road", "Load", text.str());
 }
 
@@ -85,9 +86,9 @@ RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, 
       road.distance = std::isfinite(far) ? (near + far) / 2 : 2 * near;
   }
   std::ostringstream text;
-  text << "no distance was found for Road/Load = " << wanted * scene.unit << ": after "
-       << most_trials << " trials it is between " << near * scene.unit << " and "
-       << far * scene.unit;
+  text << "no distance was found for Road/Load = " << wanted * scene.units.of(Quantity::force)
+       << ": after " << most_trials << " trials it is between " << near * scene.units.length
+       << " and " << far * scene.units.length;
   throw NotSolved(text.str());
 }
 

@@ -4,22 +4,26 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fcntl.h>
+#include <memory>
 #include <sys/mman.h>
 
 namespace rollwave {
 
 namespace {
 
-/// A file in memory, which needs no directory that can be written; nullptr where there can be none.
-std::FILE* open_in_memory(const std::string& content) {
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, Close>;
+
+/// A file in memory, which needs no directory that can be written; empty where there can be none.
+File open_in_memory(const std::string& content) {
   const int descriptor = memfd_create("rollwave", 0);
-  std::FILE* const file = descriptor < 0 ? nullptr : fdopen(descriptor, "w+");
-  if (file && (std::fputs(content.c_str(), file) < 0 || std::fflush(file) != 0)) {
-    std::fclose(file);
-    return nullptr;
-  }
+  File file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
+  if (file && (std::fputs(content.c_str(), file.get()) < 0 || std::fflush(file.get()) != 0))
+    file.reset();
   return file;
 }
 
@@ -39,33 +43,22 @@ std::string read_all(std::FILE* file) {
 
 } // namespace
 
-Drawing::Drawing(const std::string& script, unsigned int width, unsigned int height) {
-  const std::unique_ptr<std::FILE, Close> commands(open_in_memory(
+Picture draw(const std::string& script, unsigned int width, unsigned int height) {
+  const File commands = open_in_memory(
       "set terminal svg noenhanced size " + std::to_string(width) + "," + std::to_string(height) +
-      " font 'Helvetica,14' background rgb 'white' fixed\n" + script));
-  if (commands)
-    messages.reset(open_in_memory(""));
+      " font 'Helvetica,14' background rgb 'white' fixed\n" + script);
+  const File messages = open_in_memory("");
+  std::FILE* pipe = nullptr;
   // An interrupt is for this program, which still wants the picture of what it has.
-  if (messages)
-    pipe.reset(popen(("trap '' INT TERM HUP USR1 USR2 XCPU; exec gnuplot -d " +
-                      path_of(commands.get()) + " 2>" + path_of(messages.get()))
-                         .c_str(),
-                     "r"));
-  if (!pipe) {
-    failure = std::strerror(errno);
-    return;
-  }
-  // A full pipe would hold gnuplot up; a file instead could be cut short where the disk is full,
-  // which gnuplot does not tell.
-  constexpr int most_without_privilege = 1 << 20;
-  fcntl(fileno(pipe.get()), F_SETPIPE_SZ, most_without_privilege);
-}
-
-Picture Drawing::take() {
+  if (commands && messages)
+    pipe = popen(("trap '' INT TERM HUP USR1 USR2 XCPU; exec gnuplot -d " +
+                  path_of(commands.get()) + " 2>" + path_of(messages.get()))
+                     .c_str(),
+                 "r");
   if (!pipe)
-    return {"", "gnuplot cannot be started: " + failure};
-  const std::string svg = read_all(pipe.get());
-  if (pclose(pipe.release()) == 0 && !svg.empty())
+    return {"", std::string("gnuplot cannot be started: ") + std::strerror(errno)};
+  const std::string svg = read_all(pipe);
+  if (pclose(pipe) == 0 && !svg.empty())
     return {svg, ""};
   std::rewind(messages.get());
   return {"", "gnuplot has failed: " + printable(trimmed(read_all(messages.get())))};

@@ -20,10 +20,13 @@ using namespace dealii;
 
 namespace {
 
-std::string contact_csv(const Result& result) {
+std::string contact_csv(const Result& result, const Units& units) {
+  const std::string length = units.in_brackets(Quantity::length);
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
-  out << "z,u,phi,gap,pressure,weight\n";
+  out << "z" << units.in_brackets(Quantity::angle) << ",u" << length << ",phi" << length << ",gap"
+      << length << ",pressure" << units.in_brackets(Quantity::pressure) << ",weight"
+      << units.in_brackets(Quantity::area) << '\n';
   for (const ContactRow& row : result.contact_rows)
     out << row.angle << ',' << row.displacement << ',' << row.road << ',' << row.gap << ','
         << row.pressure << ',' << row.weight << '\n';
@@ -31,9 +34,8 @@ std::string contact_csv(const Result& result) {
 }
 
 /// Writes the field, each process its own cells if it has any. Returns the number of bytes.
-unsigned long write_field(const std::filesystem::path& directory, const Scene& scene,
-                          const Parameters& parameters, const Solution& solution, double unit,
-                          WrittenFiles& written) {
+unsigned long write_field(const std::filesystem::path& directory, const Parameters& parameters,
+                          const Solution& solution, WrittenFiles& written) {
   const MPI_Comm communicator = solution.space->communicator();
   const unsigned int process = process_number(communicator);
   std::vector<std::string> pieces;
@@ -56,7 +58,7 @@ unsigned long write_field(const std::filesystem::path& directory, const Scene& s
   unsigned long bytes = 0;
   if (!own.empty()) {
     file.emplace(directory / own);
-    write_solution_vtu(file->stream(), scene, solution, parameters.output.cells, unit);
+    write_solution_vtu(file->stream(), solution, parameters.output.cells);
     bytes = file->finish();
   }
   // No piece is moved to its place before all are on the disk.
@@ -76,8 +78,10 @@ unsigned long write_field(const std::filesystem::path& directory, const Scene& s
 
 } // namespace
 
-WrittenFiles write_results(const std::filesystem::path& directory, const Scene& scene,
-                           const Parameters& parameters, Solution& solution) {
+WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
+                           Solution& solution) {
+  const Scene& scene = solution.scene;
+  Result result = in_users_units(solution.result, scene.units);
   WrittenFiles written;
   Work& work = solution.result.work;
   const MPI_Comm communicator = solution.space->communicator();
@@ -90,49 +94,40 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Scene& 
     work.bytes_written += write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
-  // Fields have single precision.
-  const double b = parameters.cylinder.outer_radius;
-  const bool fits = 1e-25 < b && b < 1e35;
-  const double unit = fits ? scene.unit : 1 / scene.outer_radius;
   std::exception_ptr failure;
   {
     const Work::Phase phase(work, "output");
-    std::optional<Drawing> drawing; // made while the files are written
-    if (parameters.wants(OutputFile::plot) && is_first)
-      drawing.emplace(plot_scene(scene, solution.result));
     if (parameters.wants(OutputFile::contact) && is_first)
-      add("contact.csv", contact_csv(to_lengths(solution.result, scene.unit)));
+      add("contact.csv", contact_csv(result, scene.units));
     if (is_first) {
       std::ostringstream text;
       write_parameters(text, parameters);
       add("parameters.prm", text.str());
     }
     if (parameters.wants(OutputFile::surface) && is_first) {
-      add("surface.vtu", surface_vtu(scene, solution.result, unit));
-      add("road.vtu", road_vtu(scene, unit));
+      add("surface.vtu", surface_vtu(scene, result));
+      add("road.vtu", road_vtu(scene));
     }
     if (parameters.wants(OutputFile::solution))
       try {
-        work.bytes_written += write_field(directory, scene, parameters, solution, unit, written);
+        work.bytes_written += write_field(directory, parameters, solution, written);
       } catch (const NotWritten&) {
         // The largest file by far: where it has no room, the others may.
         if (!is_alone(communicator))
           throw;
         failure = std::current_exception();
       }
-    if (!fits)
-      written.remarks.push_back("the fields are lengths over the outer radius, since they leave "
-                                "the range of single precision");
-    if (drawing) {
-      if (const auto [svg, reason] = drawing->take(); reason.empty())
+    if (parameters.wants(OutputFile::plot) && is_first) {
+      if (const auto [svg, reason] = plot_scene(scene, result); reason.empty())
         add("scene.svg", svg);
       else
         written.remarks.push_back("scene.svg was not drawn: " + reason);
     }
   }
-  solution.result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
+  result.work = work;
   if (parameters.wants(OutputFile::summary) && is_first)
-    add("summary.json", summary_json(scene, parameters, to_lengths(solution.result, scene.unit)));
+    add("summary.json", summary_json(scene, parameters, result));
   if (failure)
     std::rethrow_exception(failure);
   return written;

@@ -22,21 +22,30 @@ double zoom_of(const Scene& scene, const Result& result) {
 }
 
 std::string title_of(const Scene& scene, const Result& result) {
+  const double b = scene.outer_radius;
+  const bool is_given = scene.units.material.is_given();
   std::ostringstream title;
   title.precision(4);
-  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree
-        << ":  omega b = " << scene.angular_velocity * scene.outer_radius
-        << ",  c / b = " << scene.road_distance / scene.outer_radius
-        << ",  a / b = " << scene.inner_radius / scene.outer_radius
-        << ",  F / b = " << result.patch.force / scene.outer_radius;
+  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  "
+        << (is_given ? "omega / critical = " : "omega b = ") << scene.angular_velocity * b
+        << ",  c / b = " << scene.road_distance / b << ",  a / b = " << scene.inner_radius / b;
+  if (is_given)
+    title << ",  F = " << result.patch.force << scene.units.after(Quantity::force);
+  else
+    title << ",  F / b = " << result.patch.force / (b * scene.units.length);
   if (scene.road_curvature != 0)
-    title << ",  kappa b = " << scene.road_curvature * scene.outer_radius;
+    title << ",  kappa b = " << scene.road_curvature * b;
   return title.str();
+}
+
+std::string pressure_unit(const Units& units) {
+  const std::string name = units.in_brackets(Quantity::pressure);
+  return name.empty() && units.material.shear_modulus == 1 ? " / modulus" : name;
 }
 
 /// The data of the panels, lengths in units of b, so that any scene fits the frames.
 void write_data(std::ostream& script, const Scene& scene, const Result& result) {
-  const double b = scene.outer_radius;
+  const double b = scene.outer_radius * scene.units.length; // in the user's units
   const auto add_point = [&](double r, double z) {
     script << r * std::cos(z) << ' ' << r * std::sin(z) << '\n';
   };
@@ -48,8 +57,9 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
     add_surface(point);
   add_surface(result.surface.front());
   script << "EOD\n$road << EOD\n";
-  for (const double z : angles_of_road(scene, 4 * std::max(b, scene.road_distance)))
-    add_point(1 + scene.road(z) / b, z);
+  for (const double z :
+       angles_of_road(scene, 4 * std::max(scene.outer_radius, scene.road_distance)))
+    add_point(1 + scene.road(z) / scene.outer_radius, z);
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
     script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap / b) << ' '
@@ -113,7 +123,6 @@ plot '$contact' using 1:2 with lines linestyle 3
 const char* const pressure = R"(
 set tmargin at screen 0.32
 set bmargin at screen 0.11
-set ylabel 'pressure / modulus'
 set xlabel '(z - 3 pi / 2) / rad'
 plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
      '$contact' using 1:3 with lines linestyle 1 linecolor rgb '#b3541e'
@@ -121,7 +130,7 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 } // namespace
 
-Drawing plot_scene(const Scene& scene, const Result& result) {
+Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
   const double zoom = zoom_of(scene, result);
   // Of the frame of the zoom, which has 0.40 of the width and 0.25 of the height.
@@ -131,7 +140,7 @@ Drawing plot_scene(const Scene& scene, const Result& result) {
   write_data(script, scene, result);
   double largest = 0;
   for (const SurfacePoint& point : result.surface)
-    largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
+    largest = std::max(largest, 1 + point.displacement / (scene.outer_radius * scene.units.length));
   script << "a = " << scene.inner_radius / scene.outer_radius
          << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
@@ -145,8 +154,8 @@ Drawing plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << pressure;
-  return Drawing(script.str(), width, height);
+  script << "set ylabel 'pressure" << pressure_unit(scene.units) << "'\n" << pressure;
+  return draw(script.str(), width, height);
 }
 
 } // namespace rollwave

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
+#include <regex>
 #include <sstream>
+#include <tuple>
 
 namespace rollwave {
 
@@ -18,7 +20,10 @@ namespace {
 /// A long history is told by its ends.
 constexpr unsigned int most_lines = 40;
 
-void report_history(std::ostream& out, const std::vector<ContactStep>& history) {
+void report_history(std::ostream& out, const std::vector<ContactStep>& history,
+                    const Units& units) {
+  const std::string penetration = "penetration" + units.in_brackets(Quantity::length),
+                    lowest_pressure = "lowest pressure" + units.in_brackets(Quantity::pressure);
   TableHandler table;
   for (unsigned int step = 0; step < history.size(); ++step) {
     if (history.size() > most_lines && step >= most_lines / 2 &&
@@ -27,18 +32,18 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history) 
     table.add_value("step", step + 1);
     table.add_value("active", history[step].active);
     table.add_value("changed", history[step].changed);
-    table.add_value("penetration", history[step].penetration);
-    table.add_value("lowest pressure", history[step].lowest_pressure);
+    table.add_value(penetration, history[step].penetration);
+    table.add_value(lowest_pressure, history[step].lowest_pressure);
     table.add_value("residual", history[step].residual);
   }
-  for (const char* const column : {"penetration", "lowest pressure", "residual"}) {
+  for (const std::string& column : {penetration, lowest_pressure, std::string("residual")}) {
     table.set_precision(column, 3);
     table.set_scientific(column, true);
   }
   print_table(out, table);
 }
 
-void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
+void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, const Units& units) {
   TableHandler table;
   for (unsigned int i = 0; i < cycles.size(); ++i) {
     const auto number = [](bool exists, double value) {
@@ -50,12 +55,42 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles) {
     table.add_value("cells", cycles[i].cells);
     table.add_value("unknowns", cycles[i].dofs);
     table.add_value("contact steps", cycles[i].contact_steps);
-    table.add_value("indicated error", number(cycles[i].indicated > 0, cycles[i].indicated));
+    table.add_value("indicated error" + units.in_brackets(Quantity::energy_norm),
+                    number(cycles[i].indicated > 0, cycles[i].indicated));
     table.add_value("certified, relative",
                     number(cycles[i].certified.has_value(), cycles[i].certified.value_or(0)));
   }
   out << "\nAdaptive refinement\n";
   print_table(out, table);
+}
+
+/// The first file whose name ends as @p pattern says; empty without one.
+std::string first_file(const WrittenFiles& written, const std::string& pattern) {
+  for (const auto& file : written.files)
+    if (std::regex_search(file.string(), std::regex(pattern + '$')))
+      return file.string();
+  return "";
+}
+
+void report_certificate(std::ostream& out, const Result& result, const Units& units) {
+  const CertifiedError& certified = *result.certified;
+  const auto range = [&](const char* what, double lower, double upper, Quantity quantity) {
+    out << what << std::setprecision(9) << lower << " to " << upper << units.after(quantity);
+  };
+  range("Certified  J(u) from ", certified.lower_bound, certified.upper_bound, Quantity::energy);
+  out << ", error in the energy norm at most " << std::setprecision(3) << certified.energy_norm
+      << units.after(Quantity::energy_norm) << ", relative " << certified.relative << '\n';
+  if (certified.sampled_width > 0)
+    out << "           for the force as sampled: strips narrower than " << certified.sampled_width
+        << units.after(Quantity::length) << " and spots smaller than a cell may be missed\n";
+  if (const auto& bounds = result.load_bounds) {
+    range("           G    from ", bounds->lower, bounds->upper, Quantity::force);
+    out << '\n';
+  }
+  if (const auto& bounds = result.distance_bounds) {
+    range("           c    from ", bounds->lower, bounds->upper, Quantity::length);
+    out << '\n';
+  }
 }
 
 } // namespace
@@ -68,70 +103,73 @@ void print_table(std::ostream& out, const TableHandler& table) {
 }
 
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
+  const auto& [cylinder, road, material] =
+      std::tie(parameters.cylinder, parameters.road, parameters.material);
+  const auto unit = [&scene](Quantity quantity) { return scene.units.after(quantity); };
+  const std::string length = unit(Quantity::length);
+  const double of_critical = scene.angular_velocity * scene.outer_radius;
   out << version_text() << '\n'
-      << "Cylinder   a = " << parameters.cylinder.inner_radius
-      << ", b = " << parameters.cylinder.outer_radius
-      << ", omega = " << parameters.cylinder.angular_velocity
-      << " (omega b = " << scene.angular_velocity * scene.outer_radius
-      << "), f = " << parameters.cylinder.radial_force << '\n'
-      << "Road       " << (scene.load ? "load " : "distance ")
-      << parameters.road.load.value_or(parameters.road.distance);
-  if (scene.road_curvature != 0)
-    out << ", curvature " << parameters.road.curvature;
+      << "Cylinder   a = " << cylinder.inner_radius << length << ", b = " << cylinder.outer_radius
+      << length << ", omega = " << cylinder.angular_velocity << unit(Quantity::angular_velocity);
+  if (material.is_given())
+    out << " (" << of_critical << " of the critical speed), f = ";
+  else
+    out << " (omega b = " << of_critical << "), f = ";
+  out << cylinder.radial_force << '\n';
+  if (material.is_given())
+    out << "Material   mu = " << material.shear_modulus << unit(Quantity::pressure)
+        << ", rho = " << material.density << unit(Quantity::density)
+        << ", width = " << material.width << length << ", critical speed "
+        << material.wave_speed() / cylinder.outer_radius << unit(Quantity::angular_velocity)
+        << '\n';
+  out << "Road       " << (road.load ? "load " : "distance ") << road.load.value_or(road.distance)
+      << unit(road.load ? Quantity::force : Quantity::length);
+  if (road.curvature != 0)
+    out << ", curvature " << road.curvature;
   out << ", zone of possible contact [" << scene.zone_begin << ", " << scene.zone_end << "] rad\n"
       << std::flush;
 }
 
-void report_result(std::ostream& out, const Result& result) {
+void report_result(std::ostream& out, const Result& result, const Units& units) {
+  const auto unit = [&units](Quantity quantity) { return units.after(quantity); };
+  const std::string length = unit(Quantity::length), force = unit(Quantity::force);
   if (result.cycles.size() > 1)
-    report_cycles(out, result.cycles);
+    report_cycles(out, result.cycles, units);
   const MeshFigures& mesh = result.mesh;
   out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs
       << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min << " to "
-      << mesh.h_max << "\n\nContact steps";
+      << mesh.h_max << length << "\n\nContact steps";
   if (result.rho > 0)
-    out << " by Uzawa's method, rho = " << result.rho;
+    out << " by Uzawa's method, rho = " << result.rho << unit(Quantity::force_density);
   else
     out << " by the active set method";
   out << '\n';
-  report_history(out, result.history);
+  report_history(out, result.history, units);
   for (const std::string& remark : result.remarks)
     out << "Note: " << remark << '\n';
 
   const ContactResultants& contact = result.patch;
   out << "\nResult\n" << std::setprecision(9);
-  out << "  road distance        c = " << result.road_distance << '\n';
+  out << "  road distance        c = " << result.road_distance << length << '\n';
   if (contact.patches.size() > 1)
     out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches)
     out << "  contact from " << patch.begin << " to " << patch.end << " rad, half-width "
-        << (patch.end - patch.begin) / 2 << " rad, on " << patch.length << " of the road, force "
-        << patch.force << '\n';
+        << (patch.end - patch.begin) / 2 << " rad, on " << patch.length << length
+        << " of the road, force " << patch.force << force << '\n';
   if (contact.patches.empty())
     out << "  no contact\n";
-  out << "  contact force        F = " << contact.force << '\n'
-      << "  vertical load            " << contact.vertical_load << '\n'
-      << "  work-conjugate load  G = " << contact.work_conjugate_load << '\n'
-      << "  peak pressure            " << contact.peak_pressure << '\n'
-      << "  stiffness  -d(load)/dc   " << contact.stiffness.vertical << " (vertical)\n"
-      << "  energy          J(u_h) = " << result.energy.value
-      << ", a(u_h, u_h) = " << result.energy.norm_squared << '\n';
-  if (result.certified) {
-    const CertifiedError& certified = *result.certified;
-    out << "Certified  J(u) from " << std::setprecision(9) << certified.lower_bound << " to "
-        << certified.upper_bound << ", error in the energy norm at most " << std::setprecision(3)
-        << certified.energy_norm << ", relative " << certified.relative << '\n';
-    if (certified.sampled_width > 0)
-      out << "           for the force as sampled: strips narrower than " << certified.sampled_width
-          << " and spots smaller than a cell may be missed\n";
-    if (result.load_bounds)
-      out << "           G    from " << std::setprecision(9) << result.load_bounds->lower << " to "
-          << result.load_bounds->upper << '\n';
-    if (result.distance_bounds)
-      out << "           c    from " << std::setprecision(9) << result.distance_bounds->lower
-          << " to " << result.distance_bounds->upper << '\n';
-  }
+  out << "  contact force        F = " << contact.force << force << '\n'
+      << "  vertical load            " << contact.vertical_load << force << '\n'
+      << "  work-conjugate load  G = " << contact.work_conjugate_load << force << '\n'
+      << "  peak pressure            " << contact.peak_pressure << unit(Quantity::pressure) << '\n'
+      << "  stiffness  -d(load)/dc   " << contact.stiffness.vertical << unit(Quantity::stiffness)
+      << " (vertical)\n"
+      << "  energy          J(u_h) = " << result.energy.value << unit(Quantity::energy)
+      << ", a(u_h, u_h) = " << result.energy.norm_squared << unit(Quantity::energy) << '\n';
+  if (result.certified)
+    report_certificate(out, result, units);
   if (!result.shortfalls.empty())
     out << "Shortfall  " << shortfall_text(result) << '\n';
   out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
@@ -156,6 +194,11 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   }
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
+  if (const std::string picture = first_file(written, "\\.svg"); !picture.empty()) {
+    const std::string field = first_file(written, "(study\\.pvd|solution\\.p?vtu)");
+    out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field
+        << '\n';
+  }
 }
 
 void report_end(std::ostream& out, const Work& work, const WrittenFiles& written) {

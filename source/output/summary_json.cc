@@ -26,6 +26,15 @@ void add_scene_and_mesh(const Scene& scene, const RunOptions& options, const Res
                    {"radial_force", options.cylinder.radial_force},
                    {"zone_begin", scene.zone_begin},
                    {"zone_end", scene.zone_end}};
+  const MaterialOptions& material = options.material;
+  const auto& names = material.unit_names;
+  if (material.is_given())
+    json["scene"]["material"] = {{"shear_modulus", material.shear_modulus},
+                                 {"density", material.density},
+                                 {"width", material.width}};
+  if (!names.length.empty())
+    json["scene"]["unit_names"] = {
+        {"length", names.length}, {"time", names.time}, {"force", names.force}};
   json["mesh"] = {{"degree", result.mesh.degree}, {"cells", result.mesh.cells},
                   {"dofs", result.mesh.dofs},     {"contact_nodes", result.mesh.contact_nodes},
                   {"h_min", result.mesh.h_min},   {"h_max", result.mesh.h_max}};

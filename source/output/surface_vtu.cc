@@ -70,33 +70,37 @@ std::vector<double> angles_of_road(const Scene& scene, double radius) {
   return angles;
 }
 
-std::string surface_vtu(const Scene& scene, const Result& result, double unit) {
+std::string surface_vtu(const Scene& scene, const Result& result) {
+  const double length = scene.units.length, b = scene.outer_radius * length;
   std::vector<double> radius, angle, displacement, pressure, gap;
   const auto add = [&](const SurfacePoint& point) {
-    const double z = point.angle, road = std::sin(z) < 0 ? scene.road(z) : scene.outer_radius;
-    radius.push_back((scene.outer_radius + point.displacement) * unit);
+    const double z = point.angle, road = std::sin(z) < 0 ? scene.road(z) * length : b;
+    radius.push_back(b + point.displacement);
     angle.push_back(z);
-    displacement.push_back(point.displacement * unit);
+    displacement.push_back(point.displacement);
     pressure.push_back(pressure_at(result.contact_rows, z));
-    gap.push_back(road < scene.outer_radius ? (road - point.displacement) * unit
-                                            : std::numeric_limits<double>::quiet_NaN());
+    gap.push_back(road < b ? road - point.displacement : std::numeric_limits<double>::quiet_NaN());
   };
   for (const SurfacePoint& point : result.surface)
     add(point);
   add({result.surface.front().angle + 2 * dealii::numbers::PI,
        result.surface.front().displacement});
-  return line_vtu(
-      radius,
-      {{"angle", angle}, {"displacement", displacement}, {"pressure", pressure}, {"gap", gap}});
+  const auto name = [&scene](const std::string& field, Quantity quantity) {
+    return field + scene.units.in_brackets(quantity);
+  };
+  return line_vtu(radius, {{name("angle", Quantity::angle), angle},
+                           {name("displacement", Quantity::length), displacement},
+                           {name("pressure", Quantity::pressure), pressure},
+                           {name("gap", Quantity::length), gap}});
 }
 
-std::string road_vtu(const Scene& scene, double unit) {
+std::string road_vtu(const Scene& scene) {
   const std::vector<double> angles =
       angles_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance));
   std::vector<double> radius;
   for (const double z : angles)
-    radius.push_back((scene.outer_radius + scene.road(z)) * unit);
-  return line_vtu(radius, {{"angle", angles}});
+    radius.push_back((scene.outer_radius + scene.road(z)) * scene.units.length);
+  return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
 }
 
 } // namespace rollwave

@@ -13,47 +13,51 @@ using namespace dealii;
 
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
                          const ExactSolution& exact) {
-  const double length = scene.unit, area = length * length;
+  const Units& units = scene.units;
   TableHandler table;
-  const auto add = [&](const std::string& name, double unit, double ours, double theirs,
+  const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
                        double accuracy) {
+    const double unit = units.of(quantity);
     const auto number = [](double value, int digits) {
       std::ostringstream text;
       text.precision(digits);
       text << value + 0.; // no -0
       return text.str();
     };
-    table.add_value("quantity", name);
+    table.add_value("quantity", name + units.in_brackets(quantity));
     table.add_value("computed", number(ours * unit, 12));
     table.add_value("exact", number(theirs * unit, 12));
     table.add_value("difference", number((ours - theirs) * unit, 3));
     table.add_value("relative", theirs == 0 ? "-" : number(ours / theirs - 1, 3));
     table.add_value("exact to", accuracy > 0 ? number(accuracy, 1) : "-");
   };
-  add("force F", length, result.patch.force, exact.force, exact.force_accuracy);
-  add("vertical load", length, result.patch.vertical_load, exact.vertical_load,
+  add("force F", Quantity::force, result.patch.force, exact.force, exact.force_accuracy);
+  add("vertical load", Quantity::force, result.patch.vertical_load, exact.vertical_load,
       exact.force_accuracy);
-  add("work-conjugate load G", length, result.patch.work_conjugate_load, exact.work_conjugate_load,
-      exact.force_accuracy);
-  add("energy J", area, result.energy.value, exact.energy, exact.energy_accuracy);
-  add("a(u, u)", area, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width / rad", 1, result.patch.half_width(), exact.half_width,
+  add("work-conjugate load G", Quantity::force, result.patch.work_conjugate_load,
+      exact.work_conjugate_load, exact.force_accuracy);
+  add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
+  add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
+  add("half-width / rad", Quantity::number, result.patch.half_width(), exact.half_width,
       exact.half_width_accuracy);
-  add("peak pressure", 1, result.patch.peak_pressure, exact.peak_pressure, 0);
+  add("peak pressure", Quantity::pressure, result.patch.peak_pressure, exact.peak_pressure, 0);
   if (result.errors && result.errors->exact_distance)
-    add("distance c", length, result.road_distance, *result.errors->exact_distance, 1e-10);
+    add("distance c", Quantity::length, result.road_distance, *result.errors->exact_distance,
+        1e-10);
   out << "\nVerification against the semi-analytic solution\n";
   print_table(out, table);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";
-  if (const auto errors = to_lengths(result, length).errors) {
+  if (const auto errors = in_users_units(result, units).errors) {
     out << "Error in the energy norm ";
     if (errors->is_resolved)
-      out << errors->energy_norm << ", relative " << errors->relative_energy_norm;
+      out << errors->energy_norm << units.after(Quantity::energy_norm) << ", relative "
+          << errors->relative_energy_norm;
     else
       out << "too small for the exact answer to tell";
-    out << "; in L2 " << errors->l2_norm << ", of the pressure in L2 " << errors->pressure << '\n';
+    out << "; in L2 " << errors->l2_norm << units.after(Quantity::area)
+        << ", of the pressure in L2 " << errors->pressure << '\n';
   }
 }
 

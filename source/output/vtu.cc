@@ -20,17 +20,14 @@ namespace {
 
 using Patch = DataOutBase::Patch<2>;
 
-/// A piece of the file is as many cells: their patches take several times the memory of the mesh.
-constexpr std::size_t cells_in_piece = 50000;
-
 using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
                                       DataComponentInterpretation::DataComponentInterpretation>>;
 
 /// Makes a patch for each cell, with the element's own nodes at their deformed places.
 class DeformedCells {
 public:
-  DeformedCells(const Solution& solution, double unit)
-      : solution(solution), unit(unit), space(*solution.space),
+  explicit DeformedCells(const Solution& solution)
+      : solution(solution), units(solution.scene.units), space(*solution.space),
         element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
@@ -41,8 +38,11 @@ public:
     values.reinit(cell);
     values.get_function_values(solution.displacement, u);
     values.get_function_gradients(solution.displacement, gradients);
-    const double bound =
-        solution.certificate ? solution.certificate->cell_bounds[cell->active_cell_index()] : 0;
+    const double bound = solution.certificate
+                             ? solution.certificate->cell_bounds[cell->active_cell_index()] *
+                                   units.of(Quantity::energy_norm)
+                             : 0;
+    const double length = units.length, pressure = units.of(Quantity::pressure);
     Patch patch;
     patch.patch_index = index;
     patch.reference_cell = ReferenceCells::Quadrilateral;
@@ -59,14 +59,14 @@ public:
         add(length * outwards[0]);
         add(length * outwards[1]);
       };
-      add(u[node] * unit);
-      add(gradients[node][0]);
-      add(r * unit);
+      add(u[node] * length);
+      add(gradients[node][0] * pressure);
+      add(r * length);
       add(z);
-      add_vector(u[node] * unit);
+      add_vector(u[node] * length);
       if (solution.certificate)
-        add(bound * unit);
-      add_vector((r + u[node]) * unit); // behind the data the places of the points
+        add(bound);
+      add_vector((r + u[node]) * length); // behind the data the places of the points
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
@@ -75,21 +75,28 @@ public:
 
   /// The names of scalars and of components of vectors.
   static std::vector<std::string> field_names(const Solution& solution) {
-    std::vector<std::string> names = {"displacement", "radial_stress", "radius", "angle", "x", "y"};
+    const Units& units = solution.scene.units;
+    const std::string length = units.in_brackets(Quantity::length);
+    std::vector<std::string> names = {"displacement" + length,
+                                      "radial_stress" + units.in_brackets(Quantity::pressure),
+                                      "radius" + length,
+                                      "angle" + units.in_brackets(Quantity::angle),
+                                      "x",
+                                      "y"};
     if (solution.certificate)
-      names.push_back("certified_error");
+      names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
     return names;
   }
 
   /// The vectors among them.
-  static Ranges vectors() {
-    return {
-        {4, 5, "displacement_vector", DataComponentInterpretation::component_is_part_of_vector}};
+  static Ranges vectors(const Solution& solution) {
+    return {{4, 5, "displacement_vector" + solution.scene.units.in_brackets(Quantity::length),
+             DataComponentInterpretation::component_is_part_of_vector}};
   }
 
 private:
   const Solution& solution;
-  const double unit;
+  const Units& units;
   const RingSpace& space;
   const FE_Q<2>& element;
   /// From the order of points in a patch, r running fastest, to the element's own order.
@@ -108,46 +115,40 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 }
 
 /// What the scene is, for captions.
-void write_field_data(std::ostream& out, const Scene& scene, const Result& result, double unit) {
+void write_field_data(std::ostream& out, const Solution& solution) {
+  const Units& units = solution.scene.units;
   out.precision(std::numeric_limits<double>::max_digits10);
   out << "<FieldData>\n";
-  for (const auto& [name, value] : {std::pair("omega", scene.angular_velocity / unit),
-                                    {"c", scene.road_distance * unit},
-                                    {"F", result.patch.force * unit}})
-    out << "<DataArray type=\"Float64\" Name=\"" << name
-        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value << "</DataArray>\n";
+  for (const auto& [name, value, quantity] :
+       {std::tuple("omega", solution.scene.angular_velocity, Quantity::angular_velocity),
+        {"c", solution.scene.road_distance, Quantity::length},
+        {"F", solution.result.patch.force, Quantity::force}})
+    out << "<DataArray type=\"Float64\" Name=\"" << name << units.in_brackets(quantity)
+        << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value * units.of(quantity)
+        << "</DataArray>\n";
   out << "</FieldData>\n";
 }
 
 } // namespace
 
-void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind cells,
+void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind kind,
                          const std::vector<std::string>& pieces) {
   DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution),
-                                 DeformedCells::vectors(), vtk_flags(solution, cells));
+                                 DeformedCells::vectors(solution), vtk_flags(solution, kind));
 }
 
-void write_solution_vtu(std::ostream& out, const Scene& scene, const Solution& solution,
-                        CellKind kind, double unit) {
-  DeformedCells cells(solution, unit);
+void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind) {
+  DeformedCells cells(solution);
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
   try {
     DataOutBase::write_vtu_header(out, flags);
-    write_field_data(out, scene, solution.result, unit);
+    write_field_data(out, solution);
     std::vector<Patch> patches;
-    const auto write_piece = [&] {
-      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
-                                  DeformedCells::vectors(), flags, out);
-      patches.clear();
-    };
-    for (const auto& cell : solution.space->dof_handler().active_cell_iterators()) {
-      if (!cell->is_locally_owned())
-        continue;
-      if (patches.size() == cells_in_piece)
-        write_piece();
-      patches.push_back(cells.patch(cell, patches.size()));
-    }
-    write_piece();
+    for (const auto& cell : solution.space->dof_handler().active_cell_iterators())
+      if (cell->is_locally_owned())
+        patches.push_back(cells.patch(cell, patches.size()));
+    DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
+                                DeformedCells::vectors(solution), flags, out);
     DataOutBase::write_vtu_footer(out);
   } catch (const StandardExceptions::ExcIO&) {
     // The stream remembers its failure for its owner, who knows the file's name.

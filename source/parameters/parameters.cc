@@ -38,17 +38,39 @@ void declare_cylinder(Declarations& keys, Parameters& p) {
                   "1e151.");
   keys.add_number(
       "Angular velocity", p.cylinder.angular_velocity, 0, huge,
-      "Angular velocity omega of rolling over the wave speed: one over a length, from 0 "
-      "to 1/b.");
-  keys.add_text("Radial force", p.cylinder.radial_force,
-                "Radial force density f: an expression in r and z, a <= r <= b, 0 <= z < 2 pi.");
+      "Angular velocity omega of rolling, in radians for each unit of time, from 0 to the critical "
+      "speed, (mu/rho)^(1/2)/b in terms of Material.");
+  keys.add_text(
+      "Radial force", p.cylinder.radial_force,
+      "Radial force f for each unit of volume: an expression in r and z, a <= r <= b, 0 <= z < "
+      "2 pi.");
+}
+
+void declare_material(Declarations& keys, Parameters& p) {
+  constexpr double smallest = 1e-30, largest = 1e30;
+  keys.enter("Material");
+  keys.add_number("Shear modulus", p.material.shear_modulus, smallest, largest,
+                  "Shear modulus mu: a pressure, from 1e-30 to 1e30, in any consistent system of "
+                  "units. With 1 here, pressures and forces are over the shear modulus.");
+  keys.add_number("Density", p.material.density, smallest, largest,
+                  "Density rho: a mass over a volume, from 1e-30 to 1e30. With a density of 1 and "
+                  "a shear modulus of 1 the angular velocity is over the wave speed.");
+  keys.add_number(
+      "Width", p.material.width, smallest, largest,
+      "Width of the cylinder along its axle: a length, from 1e-30 to 1e30. With 1 here, "
+      "forces, energies and stiffness are for each unit of the axle's length.");
 }
 
 void declare_road(Declarations& keys, Parameters& p) {
   keys.enter("Road");
-  keys.add_number("Distance", p.road.distance, tiny, huge,
-                  "Distance c of the flat road below the axle: a length, greater than a; less than "
-                  "2 b where the zone is auto.");
+  keys.add(
+      "Distance", "0.8",
+      [&p](const std::string& text) {
+        if (text != "none" && !((p.road.distance = to_number(text)) > 0))
+          throw std::invalid_argument("");
+      },
+      "Distance c of the road below the axle: a length, greater than a; less than 2 b where the "
+      "zone is auto. \"none\" where a load is given.");
   keys.add(
       "Load", "none",
       [&p](const std::string& text) {
@@ -56,8 +78,7 @@ void declare_road(Declarations& keys, Parameters& p) {
         if (p.road.load && !(*p.road.load > 0))
           throw std::invalid_argument("");
       },
-      "\"none\", or instead of the distance the load for each unit of the axle's length over the "
-      "shear modulus: a length, greater than 0.");
+      "\"none\", or instead of the distance the load on the whole width: a force, greater than 0.");
   keys.add_choice<LoadKind>(
       "Load kind", p.road.load_kind,
       {{"vertical", LoadKind::vertical},
@@ -144,7 +165,8 @@ void declare_contact(Declarations& keys, Parameters& p) {
         if (p.contact.rho && *p.contact.rho <= 0)
           throw std::invalid_argument("");
       },
-      "Uzawa's step length rho, pressure over displacement: \"auto\" or a number greater than 0. "
+      "Uzawa's step length rho, a pressure over a displacement: \"auto\" or a number greater than "
+      "0. "
       "\"auto\" is 1.8 over the largest eigenvalue of the compliance of the contact zone.");
   keys.add_choice<UzawaStop>(
       "Stopping rule", p.contact.stop, {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
@@ -170,33 +192,17 @@ void declare_solver(Declarations& keys, Parameters& p) {
       "memory. \"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
 }
 
-void declare_output(Declarations& keys, Parameters& p) {
-  keys.enter("Output");
-  keys.add_text("Directory", p.output.directory,
-                "The directory of the files, made when missing, seen from where the program is "
-                "called: output and the name of the parameter file where this key is left out.");
-  keys.add(
-      "Files", "summary, contact, solution, surface, plot",
-      [&p](const std::string& text) { p.output.files = parse_files(text); },
-      "The files to write beside parameters.prm: any of summary (summary.json), contact "
-      "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
-      "study.svg of a study), or all.");
-  keys.add_choice<CellKind>(
-      "Cells", p.output.cells, {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
-      "The cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
-      "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
-}
-
 /// Every key of the program: name, default, range, unit and text, each in one statement.
 void declare(Declarations& keys, Parameters& p) {
   declare_cylinder(keys, p);
+  declare_material(keys, p);
   declare_road(keys, p);
   declare_mesh(keys, p);
   declare_certificate(keys, p);
   declare_contact(keys, p);
   declare_solver(keys, p);
   declare_study(keys, p.study);
-  declare_output(keys, p);
+  declare_output(keys, p.output, p.material.unit_names);
 }
 
 /// Keys of earlier versions, which say what to do instead.
@@ -210,6 +216,13 @@ void refuse_gone(const std::vector<Setting>& settings) {
       throw BadInput(place(setting) + ": this key is gone; " + key->second + "; leave the key out");
 }
 
+/// The setting that holds for a key; nullptr where there is none.
+const Setting* last_of(const std::vector<Setting>& settings, const std::string& path) {
+  const auto last = std::find_if(settings.rbegin(), settings.rend(),
+                                 [&](const Setting& setting) { return setting.path() == path; });
+  return last == settings.rend() ? nullptr : &*last;
+}
+
 } // namespace
 
 Parameters read_parameters(const std::vector<Setting>& settings) {
@@ -219,10 +232,15 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   refuse_gone(settings);
   keys.apply(settings);
   parameters.settings = settings;
-  if (parameters.road.load && parameters.road.distance != RoadOptions().distance)
+  const Setting* const distance = last_of(settings, "Road/Distance");
+  const bool has_distance = distance && distance->value != "none";
+  if (parameters.road.load && has_distance)
     throw BadInput(refusal(settings, "Road", "Load",
-                           "the distance follows from the load; leave Road/Distance out, or set "
-                           "Road/Load = none"));
+                           "the distance follows from the load; leave Road/Distance out, or set it "
+                           "or Road/Load to none"));
+  if (!parameters.road.load && distance && !has_distance)
+    throw BadInput(
+        refusal(settings, "Road", "Distance", "without a distance Road/Load must be given"));
   for (const Setting& setting : settings) {
     const auto set_origin = [&](const std::string& key, Setting& value) {
       if (setting.path() == key)
@@ -242,10 +260,8 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
 
 std::string refusal(const std::vector<Setting>& settings, const std::string& section,
                     const std::string& key, const std::string& wanted) {
-  const auto last = std::find_if(settings.rbegin(), settings.rend(), [&](const Setting& setting) {
-    return setting.section == section && setting.key == key;
-  });
-  if (last == settings.rend())
+  const Setting* const last = last_of(settings, section + '/' + key);
+  if (!last)
     return place({section, key, "", "default value"}) + ": " + wanted;
   return place(*last) + ", value " + in_quotes(last->value) + ": " + wanted;
 }
@@ -259,6 +275,8 @@ void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
   Declarations keys;
   declare(keys, parameters);
   keys.apply(settings);
+  if (parameters.road.load)
+    keys.apply({{"Road", "Distance", "none", "Road/Load"}});
   keys.print(out);
 }
 

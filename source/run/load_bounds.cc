@@ -12,36 +12,22 @@ using namespace dealii;
 
 namespace {
 
-/// The certified bounds of E(c) at the distances c.
-class CertifiedEnergy {
-public:
-  CertifiedEnergy(const RunOptions& options, const RingSpace& space, const MeshSolution& solution,
-                  MeshCache& system, Work& work)
-      : options(options), space(space), solution(solution), system(system), work(work),
-        start(solution.contact.state.force) {
-    for (unsigned int i = 0; i < start.size(); ++i)
-      start(i) /= solution.problem.weight(i);
-  }
-
-  Bounds operator()(double distance) const {
-    Scene moved = with_distance(solution.scene, distance);
-    moved.load.reset();
-    const MeshSolution there = solve_on_mesh(moved, options, space, start, system, work);
-    const CertifiedError error =
-        certify(space, moved, there.problem, there.contact, there.displacement, system.force.get(),
-                system.load, system.dual_of(moved, space, work), work)
-            .error;
-    return {error.lower_bound, error.upper_bound};
-  }
-
-private:
-  const RunOptions& options;
-  const RingSpace& space;
-  const MeshSolution& solution;
-  MeshCache& system;
-  Work& work;
-  Vector<double> start;
-};
+/// The certified bounds of E at another distance, on the same mesh.
+Bounds certified_energy(const RunOptions& options, const RingSpace& space,
+                        const MeshSolution& solution, double distance, MeshCache& system,
+                        Work& work) {
+  Scene moved = with_distance(solution.scene, distance);
+  moved.load.reset();
+  Vector<double> start = solution.contact.state.force;
+  for (unsigned int i = 0; i < start.size(); ++i)
+    start(i) /= solution.problem.weight(i);
+  const MeshSolution there = solve_on_mesh(moved, options, space, start, system, work);
+  const CertifiedError error =
+      certify(space, moved, there.problem, there.contact, there.displacement, system.force.get(),
+              system.load, system.dual_of(moved, space, work), work)
+          .error;
+  return {error.lower_bound, error.upper_bound};
+}
 
 /// The step at which the two widths of the bounds of G are equal.
 double best_step(const Scene& scene, const CertifiedError& here, double stiffness) {
@@ -56,7 +42,9 @@ double best_step(const Scene& scene, const CertifiedError& here, double stiffnes
 Bounds bound_load(const RunOptions& options, const RingSpace& space, const MeshSolution& solution,
                   MeshCache& system, Result& result) {
   const CertifiedError here = *result.certified;
-  const CertifiedEnergy energy(options, space, solution, system, result.work);
+  const auto energy = [&](double distance) {
+    return certified_energy(options, space, solution, distance, system, result.work);
+  };
   const double c = solution.scene.road_distance;
   const double step = best_step(solution.scene, here, solution.stiffness.work_conjugate);
   const Bounds near = energy(c - step), far = energy(c + step);
@@ -68,7 +56,9 @@ std::optional<Bounds> bound_distance(const RunOptions& options, const RingSpace&
                                      const MeshSolution& solution, MeshCache& system,
                                      Result& result) {
   const CertifiedError here = *result.certified;
-  const CertifiedEnergy energy(options, space, solution, system, result.work);
+  const auto energy = [&](double distance) {
+    return certified_energy(options, space, solution, distance, system, result.work);
+  };
   const double c = solution.scene.road_distance, load = solution.scene.load->value;
   for (double step = 1.5 * best_step(solution.scene, here, solution.stiffness.work_conjugate);
        step < 0.01 * c; step *= 2) {

@@ -50,6 +50,30 @@ std::string rounded(double value) {
   return text.str();
 }
 
+/// How many unknowns the wanted error needs by the rate of the meshes so far, such as "1e-07 needs
+/// about 4e+06 unknowns at degree 2"; empty where these are too few to tell.
+std::string cost_text(const RunOptions& options, const Result& result) {
+  const double wanted = options.mesh.wanted_relative_error;
+  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that tell the rate
+  for (const CycleFigures& mesh : result.cycles)
+    if (mesh.indicated > 0)
+      end = &mesh;
+  for (const CycleFigures& mesh : result.cycles)
+    if (end && 4 * mesh.dofs <= end->dofs)
+      begin = &mesh;
+  if (!result.certified || !begin || !(end->indicated < begin->indicated))
+    return {};
+  const double rate =
+      std::log(begin->indicated / end->indicated) / std::log(double(end->dofs) / begin->dofs);
+  std::ostringstream text;
+  text << wanted << " needs about " << std::setprecision(1)
+       << result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate)
+       << " unknowns at degree " << result.mesh.degree;
+  if (result.mesh.degree < highest_degree && options.mesh.marking != Marking::all)
+    text << ", fewer at a higher one";
+  return text.str();
+}
+
 } // namespace
 
 std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& options,
@@ -96,25 +120,27 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   return remarks;
 }
 
-std::string cost_text(const RunOptions& options, const Result& result) {
-  const double wanted = options.mesh.wanted_relative_error;
-  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that tell the rate
-  for (const CycleFigures& mesh : result.cycles)
-    if (mesh.indicated > 0)
-      end = &mesh;
-  for (const CycleFigures& mesh : result.cycles)
-    if (end && 4 * mesh.dofs <= end->dofs)
-      begin = &mesh;
-  if (!result.certified || !begin || !(end->indicated < begin->indicated))
-    return {};
-  const double rate =
-      std::log(begin->indicated / end->indicated) / std::log(double(end->dofs) / begin->dofs);
+std::string missing_error_text(const RunOptions& options, const Result& result,
+                               bool is_at_finest_level) {
   std::ostringstream text;
-  text << wanted << " needs about " << std::setprecision(1)
-       << result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate)
-       << " unknowns at degree " << result.mesh.degree;
-  if (result.mesh.degree < highest_degree && options.mesh.marking != Marking::all)
-    text << ", fewer at a higher one";
+  if (result.certified)
+    text << "the certified relative error is " << result.certified->relative << ", wanted "
+         << options.mesh.wanted_relative_error << "; ";
+  if (const std::string cost = cost_text(options, result); !cost.empty())
+    text << cost << "; ";
+  text << (is_at_finest_level
+               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
+                 "Mesh/Angular cells, or want less"
+               : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
+  return text.str();
+}
+
+std::string residual_text(const Residuals& residuals) {
+  std::ostringstream text;
+  text << "the conditions of contact and equilibrium hold to " << residuals.largest()
+       << " only, wanted " << wanted_residual << "; rounding the displacement makes "
+       << residuals.round_off
+       << ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
   return text.str();
 }
 

@@ -6,7 +6,6 @@
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/ring_mesh.h"
-#include "rollwave/run/certificate_schedule.h"
 #include "rollwave/run/load_bounds.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -76,6 +75,20 @@ void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   result.cycles.back().certified = solution.certificate->error.relative;
 }
 
+/// Whether a mesh of an adaptive run but the last one is certified: the first one, those whose
+/// bound may be small enough, if it has about kept its ratio to the indicator since it was computed
+/// last, and those with three times the unknowns of that mesh, or a third of its indicator.
+bool is_certificate_due(const RunOptions& options, const std::vector<CycleFigures>& cycles) {
+  constexpr double margin = 1.3; // a mesh too many costs more than a certificate
+  const double wanted = options.mesh.wanted_relative_error;
+  const CycleFigures& mesh = cycles.back();
+  const auto last = std::find_if(cycles.rbegin(), cycles.rend(),
+                                 [](const CycleFigures& cycle) { return cycle.certified; });
+  return wanted > 0 && (last == cycles.rend() || mesh.dofs >= 3. * last->dofs ||
+                        3 * mesh.indicated <= last->indicated ||
+                        *last->certified * mesh.indicated <= margin * wanted * last->indicated);
+}
+
 /// eta_K of each active cell.
 std::vector<double> indicate(Indicator indicator, const MeshSolution& on_mesh, Solution& solution) {
   const Work::Phase phase(solution.result.work, "indicator");
@@ -122,36 +135,6 @@ bool is_reached(const RunOptions& options, const Result& result) {
   return result.certified && result.certified->relative <= options.mesh.wanted_relative_error;
 }
 
-/// What of the wanted error is missing and why, and what to do.
-std::string missing_error_text(const RunOptions& options, const Solution& solution) {
-  const Result& result = solution.result;
-  std::ostringstream text;
-  if (result.certified)
-    text << "the certified relative error is " << result.certified->relative << ", wanted "
-         << options.mesh.wanted_relative_error << "; ";
-  if (const std::string cost = cost_text(options, result); !cost.empty())
-    text << cost << "; ";
-  text << (is_at_finest_level(*solution.triangulation)
-               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
-                 "Mesh/Angular cells, or want less"
-               : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
-  return text.str();
-}
-
-std::string interruption_text(const Result& result) {
-  const std::size_t n_meshes = result.cycles.size();
-  return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
-}
-
-std::string residual_text(const Residuals& residuals) {
-  std::ostringstream text;
-  text << "the conditions of contact and equilibrium hold to " << residuals.largest()
-       << " only, wanted " << wanted_residual << "; rounding the displacement makes "
-       << residuals.round_off
-       << ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
-  return text.str();
-}
-
 /// Bounds the work-conjugate load or, where that is given, the distance.
 void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
@@ -172,7 +155,8 @@ void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution)
   if (certificate.error_bound && !solution.certificate)
     certify_solution(on_mesh, solution);
   if (options.mesh.wanted_relative_error > 0 && !is_reached(options, result))
-    result.shortfalls.push_back(missing_error_text(options, solution));
+    result.shortfalls.push_back(
+        missing_error_text(options, result, is_at_finest_level(*solution.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
@@ -194,7 +178,6 @@ void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communi
                       Solution& solution) {
   const auto& mesh = options.mesh;
   Result& result = solution.result;
-  CertificateSchedule schedule(mesh.wanted_relative_error);
   for (unsigned int cycle = 0;; ++cycle) {
     if (!solution.space) {
       const Work::Phase phase(result.work, "space");
@@ -219,17 +202,15 @@ void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communi
         !has_room_to_refine(*solution.triangulation, mesh.marking, most_cells(options));
     if (!is_last) {
       std::vector<double> indicators = indicate(mesh.indicator, on_mesh, solution);
-      if (schedule.is_due(result)) {
+      if (is_certificate_due(options, result.cycles)) {
         certify_solution(on_mesh, solution);
-        if (solution.certificate) {
-          schedule.note(result);
-          if (mesh.indicator != Indicator::kelly)
-            indicators = larger_of(std::move(indicators), *solution.certificate);
-        }
+        if (solution.certificate && mesh.indicator != Indicator::kelly)
+          indicators = larger_of(std::move(indicators), *solution.certificate);
       }
       result.is_interrupted = !is_reached(options, result) && is_interrupted(communicator);
       if (result.is_interrupted)
-        result.shortfalls.push_back(interruption_text(result));
+        result.shortfalls.push_back("interrupted after " + std::to_string(cycle + 1) +
+                                    (cycle == 0 ? " mesh" : " meshes"));
       if (!result.is_interrupted && !is_reached(options, result) &&
           refine(indicators, options, solution))
         continue;
@@ -267,18 +248,22 @@ RunOptions coarser(RunOptions options) {
   return options;
 }
 
-Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-             Solution previous, bool is_kept) {
+} // namespace
+
+Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                  std::optional<Solution> previous) {
   check_simulation(options, count_processes(communicator));
   Solution solution;
   solution.scene = scene;
-  solution.triangulation = std::move(previous.triangulation);
-  solution.space = std::move(previous.space);
-  solution.system = std::move(previous.system);
+  if (previous) {
+    solution.triangulation = std::move(previous->triangulation);
+    solution.space = std::move(previous->space);
+    solution.system = std::move(previous->system);
+  }
   Result before;
   if (begins_coarser(options, communicator))
     try {
-      Solution start = run(scene, coarser(options), communicator, {}, false);
+      Solution start = simulate(scene, coarser(options), communicator);
       solution.scene = std::move(start.scene);
       before = std::move(start.result);
       solution.result.work = before.work;
@@ -295,7 +280,7 @@ Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicato
         make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
   }
   try {
-    solve_and_refine(options, std::move(before), communicator, is_kept, solution);
+    solve_and_refine(options, std::move(before), communicator, previous.has_value(), solution);
   } catch (const NotEnoughMemory& shortage) {
     if (solution.result.cycles.empty())
       throw;
@@ -304,17 +289,6 @@ Solution run(const Scene& scene, const RunOptions& options, MPI_Comm communicato
                     "; set Mesh/Most unknowns to " + solved + " to end there");
   }
   return solution;
-}
-
-} // namespace
-
-Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
-  return run(scene, options, communicator, {}, false);
-}
-
-Solution simulate_next(const Scene& scene, const RunOptions& options, Solution previous,
-                       MPI_Comm communicator) {
-  return run(scene, options, communicator, std::move(previous), true);
 }
 
 } // namespace rollwave

@@ -114,6 +114,15 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& system, Wo
 
 } // namespace
 
+StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space, Work& work) {
+  const Work::Phase phase(work, "certificate");
+  if (!dual || dual->angular_velocity() != scene.angular_velocity) {
+    dual.reset(); // its memory is free before the next one needs it
+    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, work);
+  }
+  return *dual;
+}
+
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
                            const Vector<double>& start, MeshCache& system, Work& work) {
   MeshSolution solution;

@@ -4,6 +4,7 @@
 #include "rollwave/scene/force_expression.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/uniform_force.h"
+#include "rollwave/scene/units.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -27,7 +28,7 @@ std::string text(const Parts&... parts) {
 }
 
 /// Refuses radii and a speed for which the problem is not posed, or not elliptic.
-void check_cylinder(const CylinderOptions& cylinder) {
+void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& material) {
   const auto refuse = [&](const std::string& key, const std::string& wanted) {
     throw BadValue("Cylinder", key, wanted);
   };
@@ -39,10 +40,11 @@ void check_cylinder(const CylinderOptions& cylinder) {
   if (cylinder.inner_radius < least_ratio * cylinder.outer_radius)
     refuse("Inner radius", text("it must be at least ", least_ratio, " of the outer radius"));
 
-  // The user's 1/b has been rounded, at most by the last digits of a decimal number.
-  const double critical = 1 / cylinder.outer_radius;
+  // The user's number has been rounded, at most by the last digits of a decimal number.
+  const double critical = material.wave_speed() / cylinder.outer_radius;
+  const std::string formula = material.wave_speed() == 1 ? "1/b" : "(mu/rho)^(1/2)/b";
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
-    refuse("Angular velocity", text("beyond 1/b = ", critical,
+    refuse("Angular velocity", text("beyond ", formula, " = ", critical,
                                     " the problem is no longer elliptic: the surface moves faster "
                                     "than the waves"));
 }
@@ -89,7 +91,7 @@ double possible_half_width(const Scene& scene, unsigned int angular_cells) {
 
 std::string force_not_finite_at(const Scene& scene, double r, double z) {
   std::ostringstream text;
-  text << "it is not finite at r = " << r * scene.unit << ", z = " << z;
+  text << "it is not finite at r = " << r * scene.units.length << ", z = " << z;
   return text.str();
 }
 
@@ -102,8 +104,8 @@ Scene with_distance(Scene scene, double c) {
 }
 
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
-                 unsigned int angular_cells) {
-  check_cylinder(cylinder);
+                 const MaterialOptions& material, unsigned int angular_cells) {
+  check_cylinder(cylinder, material);
   const double a = cylinder.inner_radius, b = cylinder.outer_radius;
   const double least_distance = std::max(a, 0.05 * b); // for a given load
   const double distance = road.load ? least_distance + (b - least_distance) / 2 : road.distance;
@@ -111,25 +113,25 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
 
   Scene scene;
   const double unit = std::ldexp(1., std::ilogb(b));
-  scene.unit = unit;
+  scene.units = {unit, material};
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
-  scene.angular_velocity = cylinder.angular_velocity * unit;
-  scene.force_text = cylinder.radial_force;
+  scene.angular_velocity = cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity);
+  scene.force_text = text(cylinder.radial_force, " over ", material.shear_modulus);
+  const double force_density = scene.units.of(Quantity::force_density);
   const std::optional<double> constant = constant_force(cylinder.radial_force);
   if (!constant)
-    scene.force = [unit, f = parse_force(cylinder.radial_force, (a + b) / 2)](double r, double z) {
-      return unit * f(unit * r, z);
-    };
+    scene.force = [unit, force_density, f = parse_force(cylinder.radial_force, (a + b) / 2)](
+                      double r, double z) { return f(unit * r, z) / force_density; };
   else if (*constant != 0) { // for 0 no load is ever assembled
-    scene.uniform_force = unit * *constant;
+    scene.uniform_force = *constant / force_density;
     scene.force = [f = *scene.uniform_force](double, double) { return f; };
   }
   scene.has_given_zone = road.contact_zone.has_value();
   scene.road_curvature = road.curvature * unit;
   scene.least_distance = least_distance / unit;
   if (road.load)
-    scene.load = Scene::Load{*road.load / unit, road.load_kind};
+    scene.load = Scene::Load{*road.load / scene.units.of(Quantity::force), road.load_kind};
   scene = with_distance(std::move(scene), distance / unit);
 
   if (const auto& zone = road.contact_zone) {

@@ -74,10 +74,6 @@ std::optional<Fit> fit_order(const Study& study, const Family& family, const std
 
 } // namespace
 
-bool is_of_mesh_size(const Setting& setting) {
-  return mesh_sizes.count(setting.path()) > 0;
-}
-
 std::vector<Family> find_families(const Study& study) {
   std::vector<Family> families;
   std::map<std::map<std::string, std::string>, unsigned int> number_of;
@@ -88,12 +84,10 @@ std::vector<Family> find_families(const Study& study) {
       common.erase(key);
     common["scene"] = plan.scene;
     const auto [entry, is_new] = number_of.emplace(common, families.size());
-    if (is_new)
-      families.push_back(
-          {label(plan, [](const Setting& setting) { return !is_of_mesh_size(setting); }),
-           {},
-           false,
-           true});
+    if (is_new) {
+      const auto is_common = [](const Setting& key) { return mesh_sizes.count(key.path()) == 0; };
+      families.push_back({label(plan, is_common), {}, false, true});
+    }
     Family& family = families[entry->second];
     family.runs.push_back(i);
     family.is_adaptive = family.is_adaptive || most_cycles(plan.parameters.mesh) > 0;
@@ -103,14 +97,18 @@ std::vector<Family> find_families(const Study& study) {
   return families;
 }
 
-std::optional<double> observed_order(const Study& study, const Family& family, unsigned int run) {
-  const auto next = std::lower_bound(family.runs.begin(), family.runs.end(), run);
-  if (next == family.runs.begin())
+std::optional<double> observed_order(const Study& study, const std::vector<Family>& families,
+                                     unsigned int run) {
+  const auto family = std::find_if(families.begin(), families.end(), [run](const Family& family) {
+    return std::binary_search(family.runs.begin(), family.runs.end(), run);
+  });
+  const auto own = std::lower_bound(family->runs.begin(), family->runs.end(), run);
+  if (own == family->runs.begin())
     return {};
-  const unsigned int before = *(next - 1);
+  const unsigned int before = *(own - 1);
+  const auto place = refinement(study, *family, before, run);
   for (const char* const name : {"error_relative", "certified_relative"}) {
     const auto from = study.figure(before, name), to = study.figure(run, name);
-    const auto place = refinement(study, family, before, run);
     if (from && to && *from > 0 && *to > 0 && place && *place != 0)
       return std::log(*from / *to) / *place;
   }

@@ -13,6 +13,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <set>
 
@@ -22,19 +23,16 @@ using namespace dealii;
 
 namespace {
 
-/// What of the identity of a run is told by @p paths, sections or keys.
-std::map<std::string, std::string> part_of(const RunPlan& plan,
-                                           const std::set<std::string>& paths) {
-  std::map<std::string, std::string> part;
-  for (const auto& entry : plan.identity)
-    if (paths.count(entry.first) + paths.count(entry.first.substr(0, entry.first.find('/'))) > 0)
-      part.insert(entry);
-  return part;
-}
-
+/// What a run has in common with others on its mesh.
 std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
-  return part_of(plan, {"Mesh", "Solver", "Cylinder/Inner radius", "Cylinder/Outer radius",
-                        "Road/Contact zone"});
+  const std::set<std::string> paths = {"Cylinder/Inner radius", "Cylinder/Outer radius",
+                                       "Road/Contact zone"};
+  std::map<std::string, std::string> key;
+  for (const auto& entry : plan.identity)
+    if (entry.first.rfind("Mesh/", 0) == 0 || entry.first.rfind("Solver/", 0) == 0 ||
+        paths.count(entry.first) > 0)
+      key.insert(entry);
+  return key;
 }
 
 } // namespace
@@ -120,7 +118,7 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
     solution.emplace(simulate(scene, plan.parameters, communicator));
   else {
     scene.shared_zone = zone->second;
-    solution.emplace(simulate_next(scene, plan.parameters, std::move(previous), communicator));
+    solution.emplace(simulate(scene, plan.parameters, communicator, std::move(previous)));
     last_mesh = key;
   }
   Result& result = solution->result;
@@ -129,7 +127,7 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
   if (!run.shared.empty() && result.work.stiffness_assemblies == 0)
     run.shared = "mesh and matrices";
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(plan, solution->scene)) {
+    if (const auto& exact = exact_solution(solution->scene)) {
       result.errors = measure_true_errors(*solution->space, solution->displacement, result,
                                           solution->certificate, *exact);
       run.reference = "the semi-analytic solution";
@@ -140,24 +138,30 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
   if (!run.files.empty()) {
     Parameters parameters = plan.parameters;
     parameters.output.files = study.study.files_of_each_run;
-    write_results(directory / run.files, solution->scene, parameters, *solution);
+    write_results(directory / run.files, parameters, *solution);
   }
-  const Result own = to_lengths(result, scene.unit);
+  const Result own = in_users_units(result, scene.units);
   run.figures = figures_of(own);
   run.pressure = pressure_of(own);
   run.failure = shortfall_text(result);
   run.remarks = result.remarks;
 }
 
-const std::optional<ExactSolution>& StudyBench::exact_solution(const RunPlan& plan,
-                                                               const Scene& scene) {
-  const std::pair key(
-      part_of(plan, {"Cylinder", "Road"}),
-      std::array<double, 3>{{scene.zone_begin, scene.zone_end, scene.road_distance}});
-  const auto known = exact_solutions.find(key);
-  return known != exact_solutions.end()
-             ? known->second
-             : exact_solutions.emplace(key, find_exact_solution(scene)).first->second;
+const std::optional<ExactSolution>& StudyBench::exact_solution(const Scene& scene) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> key = {
+      scene.inner_radius,
+      scene.outer_radius,
+      scene.angular_velocity,
+      scene.road_distance,
+      scene.road_curvature,
+      scene.zone_begin,
+      scene.zone_end,
+      scene.has_uneven_force() ? infinity : scene.uniform_force.value_or(0)};
+  const auto [known, is_new] = exact_solutions.try_emplace(key);
+  if (is_new)
+    known->second = find_exact_solution(scene);
+  return known->second;
 }
 
 } // namespace rollwave

@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace rollwave {
@@ -23,15 +24,6 @@ using namespace dealii;
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-double figure_of(const Study& study, unsigned int run, const std::string& name) {
-  return study.figure(run, name).value_or(nothing);
-}
-
-bool any(const Study& study, const std::string& name) {
-  return std::any_of(study.runs.begin(), study.runs.end(),
-                     [&](const auto& run) { return run && run->figure(name).value_or(0) > 0; });
-}
 
 /// The numbers that a key takes in all runs; none where it has a value that is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
@@ -45,41 +37,57 @@ std::vector<double> numbers_of(const Study& study, unsigned int key) {
   return numbers;
 }
 
+/// Those of a study have names in common.
+Units units_of(const Study& study) {
+  return {1, study.plans.front().parameters.material};
+}
+
+/// Whether a key tells what is solved, and not how.
+bool is_of_scene(const Setting& setting) {
+  return setting.section == "Cylinder" || setting.section == "Material" ||
+         setting.section == "Road";
+}
+
 /// What all runs have in common: scene, method and mesh.
 std::string title_of(const Study& study) {
   const Parameters& p = study.plans.front().parameters;
   std::set<std::string> varied;
   for (const Setting& setting : study.plans.front().varied)
     varied.insert(setting.path());
-  std::ostringstream text;
-  const auto add = [&](const std::string& path, const std::string& what, const auto& value) {
-    if (varied.count(path) == 0)
-      text << (text.str().empty() ? "" : ", ") << what << value;
+  std::string title;
+  const auto add_text = [&title](const std::string& text) {
+    title += (title.empty() ? "" : ", ") + text;
+  };
+  const auto add = [&](const std::string& section, const std::string& key, const auto& value) {
+    std::ostringstream text;
+    text << value;
+    if (varied.count(section + '/' + key) == 0)
+      add_text(told({section, key, text.str(), ""}, units_of(study)));
   };
   if (study.plans.front().scene.empty()) {
-    add("Cylinder/Inner radius", "a = ", p.cylinder.inner_radius);
-    add("Cylinder/Outer radius", "b = ", p.cylinder.outer_radius);
-    add("Cylinder/Angular velocity", "ω = ", p.cylinder.angular_velocity);
-    add("Cylinder/Radial force", "f = ", p.cylinder.radial_force);
+    add("Cylinder", "Inner radius", p.cylinder.inner_radius);
+    add("Cylinder", "Outer radius", p.cylinder.outer_radius);
+    add("Cylinder", "Angular velocity", p.cylinder.angular_velocity);
+    add("Cylinder", "Radial force", p.cylinder.radial_force);
     if (p.road.load)
-      add("Road/Load", "L = ", *p.road.load);
+      add("Road", "Load", *p.road.load);
     else
-      add("Road/Distance", "c = ", p.road.distance);
+      add("Road", "Distance", p.road.distance);
     if (p.road.curvature != 0)
-      add("Road/Curvature", "κ = ", p.road.curvature);
-    add("Mesh/Degree", "degree ", p.mesh.degree);
+      add("Road", "Curvature", p.road.curvature);
+    add("Mesh", "Degree", p.mesh.degree);
   }
-  add("Contact/Method", "",
-      p.contact.method == ContactMethod::uzawa ? "Uzawa's method" : "active set");
+  if (varied.count("Contact/Method") == 0)
+    add_text(p.contact.method == ContactMethod::uzawa ? "Uzawa's method" : "active set");
   if (most_cycles(p.mesh) > 0)
-    text << ", adaptive";
-  return text.str();
+    add_text("adaptive");
+  return title;
 }
 
 /// For each choice of all keys but those that vary fastest a curve of a figure over the first of
-/// these.
+/// these, with that of another as marks.
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
-                             const std::string& figure, bool has_marks) {
+                             const std::string& figure, const std::string& marks = "") {
   std::vector<Curve> curves;
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
@@ -89,41 +97,45 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The keys before them change together with the text.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], figure_of(study, run, figure));
-    if (has_marks)
-      curves.back().marks.emplace_back(x[run], plan.published_steps ? double(*plan.published_steps)
-                                                                    : nothing);
+    curves.back().points.emplace_back(x[run], study.figure(run, figure).value_or(nothing));
+    if (study.has(marks))
+      curves.back().marks.emplace_back(x[run], study.figure(run, marks).value_or(nothing));
   }
   return curves;
 }
 
-Panel panel_over_key(const Study& study, const std::vector<double>& x, const std::string& figure,
-                     const std::string& y_label) {
-  return {words(study.plans.front().varied[study.first_keys.back()]), y_label,
-          distinct(curves_of(study, x, figure, false))};
+std::string x_label_of(const Study& study) {
+  return words(study.plans.front().varied[study.first_keys.back()], units_of(study));
 }
 
-Panel steps_over_key(const Study& study, const std::vector<double>& x) {
-  const bool has_marks =
-      std::any_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return plan.published_steps.has_value(); });
-  return {words(study.plans.front().varied[study.first_keys.back()]), "contact steps",
-          distinct(curves_of(study, x, "contact_steps", has_marks)), false, true};
+/// Loads, stiffness, half-width and pressure over the key that varies fastest.
+std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
+  std::vector<Panel> panels;
+  for (const auto& [figure, name, quantity] :
+       {std::tuple("force", "contact force F", Quantity::force),
+        {"vertical_load", "vertical load", Quantity::force},
+        {"work_conjugate_load", "work-conjugate load G", Quantity::force},
+        {"stiffness_vertical_load", "vertical stiffness", Quantity::stiffness},
+        {"half_width", "half-width of contact (angle)", Quantity::angle},
+        {"peak_pressure", "peak pressure", Quantity::pressure}})
+    panels.push_back({x_label_of(study), name + units_of(study).in_brackets(quantity),
+                      curves_of(study, x, figure)});
+  return panels;
 }
 
-/// A figure over another for each family of runs that differ in the fineness of their meshes.
+/// The error over a figure for each family of runs that differ in the fineness of their meshes.
 /// @param order_factor slopes over expected orders; 0 for none
-Panel panel_of_families(const Study& study, const std::string& x, const std::string& x_label,
-                        const std::string& y, const std::string& y_label, double order_factor) {
-  Panel panel{x_label, y_label, {}, true, true};
+Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
+                         double order_factor) {
+  Panel panel{x_label, "relative error in the energy norm", {}, true, true};
   std::set<double> slopes;
   for (const Family& family : find_families(study)) {
     if (x == "h_max" && (family.is_adaptive || !family.is_cut_alike))
       continue;
     Curve curve{family.name, {}};
     for (const unsigned int run : family.runs) {
-      if (study.figure(run, x) && study.figure(run, y))
-        curve.points.emplace_back(*study.figure(run, x), *study.figure(run, y));
+      if (study.figure(run, x) && study.figure(run, "error_relative"))
+        curve.points.emplace_back(*study.figure(run, x), *study.figure(run, "error_relative"));
       if (const auto order = study.figure(run, "expected_order");
           order && order_factor != 0 && family.is_cut_alike)
         slopes.insert(order_factor * *order);
@@ -132,80 +144,72 @@ Panel panel_of_families(const Study& study, const std::string& x, const std::str
     if (!curve.points.empty())
       panel.curves.push_back(std::move(curve));
   }
-  panel.curves = distinct(std::move(panel.curves));
   panel.slopes.assign(slopes.begin(), slopes.end());
   return panel;
 }
 
 Panel profiles(const Study& study) {
-  Panel panel{"angle from the lowest point, z - 3π/2", "contact pressure", {}};
+  Panel panel{"angle from the lowest point, z - 3π/2",
+              "contact pressure" + units_of(study).in_brackets(Quantity::pressure),
+              {}};
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
         panel.curves.back().points.emplace_back(z - 3 * numbers::PI / 2, pressure);
     }
-  panel.curves = distinct(std::move(panel.curves));
   return panel;
 }
 
 /// The vertical load over two keys; nullopt unless these alone vary, are of cylinder and road, and
 /// numbers.
-std::optional<Drawing> map_of_load(const Study& study) {
+std::optional<Picture> map_of_load(const Study& study) {
   if (study.first_keys.size() != 2 || !study.plans.front().scene.empty())
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_keys[1]);
   const auto& varied = study.plans.front().varied;
-  const auto is_physical = [](const Setting& setting) {
-    return setting.section == "Cylinder" || setting.section == "Road";
-  };
-  if (!std::all_of(varied.begin(), varied.end(), is_physical) || x.empty() || y.empty() ||
+  if (!std::all_of(varied.begin(), varied.end(), is_of_scene) || x.empty() || y.empty() ||
       x.front() == x.back() || y.front() == y.back())
     return {};
   std::vector<std::vector<std::array<double, 3>>> lines;
   for (unsigned int run = 0; run < x.size(); ++run) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
-    lines.back().push_back({{x[run], y[run], figure_of(study, run, "vertical_load")}});
+    lines.back().push_back(
+        {{x[run], y[run], study.figure(run, "vertical_load").value_or(nothing)}});
   }
-  return plot_map("vertical load; " + title_of(study), words(varied[0]),
-                  words(varied[study.first_keys[1]]), lines);
+  const Units units = units_of(study);
+  return plot_map("vertical load" + units.in_brackets(Quantity::force) + "; " + title_of(study),
+                  words(varied[0], units), words(varied[study.first_keys[1]], units), lines);
 }
 
-/// The plots by their names, being drawn.
-std::vector<std::pair<std::string, Drawing>> draw(const Study& study) {
-  std::vector<std::pair<std::string, Drawing>> drawings;
+/// The plots by their names.
+std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
+  std::vector<std::pair<std::string, Picture>> pictures;
   const std::string title = title_of(study);
   const auto add = [&](const std::string& name, const std::vector<Panel>& panels) {
     if (!panels.front().curves.empty())
-      drawings.emplace_back(name, plot_panels(title, panels));
+      pictures.emplace_back(name, plot_panels(title, panels));
   };
   const auto x =
       study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
-  if (!x.empty()) {
-    add("study.svg", {steps_over_key(study, x)});
-    add("study-curves.svg",
-        {panel_over_key(study, x, "force", "contact force F"),
-         panel_over_key(study, x, "vertical_load", "vertical load"),
-         panel_over_key(study, x, "half_width", "half-width of contact (angle)"),
-         panel_over_key(study, x, "peak_pressure", "peak pressure")});
-  }
-  add("study-profiles.svg", {profiles(study)});
   if (auto map = map_of_load(study))
-    drawings.emplace_back("study-map.svg", std::move(*map));
-  if (any(study, "error_relative") && find_families(study).size() < study.plans.size()) {
-    const std::string error = "error_relative", label = "relative error in the energy norm";
-    add("study-h.svg",
-        {panel_of_families(study, "h_max", "largest diameter of a cell h", error, label, 1)});
-    add("study-unknowns.svg", {panel_of_families(study, "dofs", "unknowns", error, label, -0.5)});
-    add("study-time.svg", {panel_of_families(study, "seconds", "seconds", error, label, 0)});
-    add("study-steps.svg",
-        {panel_of_families(study, "dofs", "unknowns", "contact_steps", "contact steps", 0)});
-    if (any(study, "linear_iterations"))
-      add("study-iterations.svg", {panel_of_families(study, "dofs", "unknowns", "linear_iterations",
-                                                     "linear iterations", 0)});
+    pictures.emplace_back("study-map.svg", std::move(*map));
+  if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
+    if (!x.empty())
+      add("study-curves.svg", curves(study, x));
+    add("study-profiles.svg", {profiles(study)});
   }
-  return drawings;
+  if (study.has("error_relative") && find_families(study).size() < study.plans.size())
+    for (const auto& [name, figure, label, order] :
+         {std::tuple("study-h.svg", "h_max", "largest diameter of a cell h", 1.),
+          {"study-unknowns.svg", "dofs", "unknowns", -0.5},
+          {"study-time.svg", "seconds", "seconds", 0.}})
+      add(name, {errors_of_families(study, figure, label, order)});
+  if (!x.empty())
+    add("study.svg", {{x_label_of(study), "contact steps",
+                       curves_of(study, x, "contact_steps", "published_steps"), false, true}});
+  return pictures;
 }
 
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
@@ -236,23 +240,26 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     write_file(directory / name, content);
     written.files.push_back(directory / name);
   };
-  std::vector<std::pair<std::string, Drawing>> drawings;
-  if (parameters.wants(OutputFile::plot) &&
-      std::any_of(study.runs.begin(), study.runs.end(),
-                  [](const auto& run) { return run && run->is_solved(); }))
-    drawings = draw(study);
-  std::ostringstream table;
-  print_study(table, study);
-  add("study.txt", table.str());
-  add("study.tex", StudyTable(study).tex());
+  const StudyTable table(study);
+  std::ostringstream text;
+  text << table.header();
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run])
+      text << table.row(run);
+  print_study_notes(text, study);
+  add("study.txt", text.str());
+  add("study.tex", table.tex());
   const auto& kinds = parameters.study.files_of_each_run;
   if (std::count(kinds.begin(), kinds.end(), OutputFile::solution) > 0)
     add("study.pvd", pvd_of(study, directory));
-  for (auto& [name, drawing] : drawings)
-    if (const auto [svg, failure] = drawing.take(); failure.empty())
-      add(name, svg);
-    else
-      written.remarks.push_back(name + " was not drawn: " + failure);
+  const bool is_solved = std::any_of(study.runs.begin(), study.runs.end(),
+                                     [](const auto& run) { return run && run->is_solved(); });
+  if (parameters.wants(OutputFile::plot) && is_solved)
+    for (const auto& [name, picture] : draw_study(study))
+      if (picture.failure.empty())
+        add(name, picture.svg);
+      else
+        written.remarks.push_back(name + " was not drawn: " + picture.failure);
   return written;
 }
 

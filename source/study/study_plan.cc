@@ -59,20 +59,24 @@ void check(const Parameters& parameters, unsigned int n_processes) {
   }
 }
 
+/// How a key is told of.
 struct Words {
   std::string words, symbol;
+  Quantity quantity = Quantity::number;
 };
 
 const std::map<std::string, Words> words_of_keys = {
-    {"Cylinder/Inner radius", {"radius of the hub", "a"}},
-    {"Cylinder/Outer radius", {"radius of the cylinder", "b"}},
-    {"Cylinder/Angular velocity", {"angular velocity", "ω"}},
+    {"Cylinder/Inner radius", {"radius of the hub", "a", Quantity::length}},
+    {"Cylinder/Outer radius", {"radius of the cylinder", "b", Quantity::length}},
+    {"Cylinder/Angular velocity", {"angular velocity", "ω", Quantity::angular_velocity}},
     {"Cylinder/Radial force", {"radial force", "f"}},
-    {"Road/Distance", {"road distance", "c"}},
-    {"Road/Load", {"load", "L"}},
+    {"Material/Shear modulus", {"shear modulus", "μ", Quantity::pressure}},
+    {"Material/Width", {"width", "w", Quantity::length}},
+    {"Road/Distance", {"road distance", "c", Quantity::length}},
+    {"Road/Load", {"load", "L", Quantity::force}},
     {"Road/Curvature", {"curvature of the road", "κ"}},
     {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
-    {"Contact/Rho", {"step length", "ρ"}}};
+    {"Contact/Rho", {"step length", "ρ", Quantity::force_density}}};
 
 } // namespace
 
@@ -82,7 +86,8 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
     scenes.push_back({"", {}});
   std::vector<Setting> common;
   for (const Setting& setting : parameters.settings)
-    if (setting.section != "Study" && setting.section != "Output")
+    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
+        setting.path() != "Output/Files")
       common.push_back(setting);
   const auto defaults = default_values();
   std::vector<RunPlan> plans;
@@ -95,7 +100,7 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
       check(plans.back().parameters, n_processes);
       for (const Setting& setting : settings) {
         auto& value = plans.back().identity[setting.path()] = shortest(setting.value);
-        if (value == defaults.at(setting.path()))
+        if (value == defaults.at(setting.path()) || setting.section == "Output")
           plans.back().identity.erase(setting.path());
       }
       if (parameters.study.true_errors)
@@ -111,26 +116,28 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
   return plans;
 }
 
-std::string symbol(const Setting& setting) {
-  const auto known = words_of_keys.find(setting.path());
-  return known != words_of_keys.end() ? known->second.symbol : words(setting);
-}
-
-std::string words(const Setting& setting) {
+std::string words(const Setting& setting, const Units& units) {
   const auto known = words_of_keys.find(setting.path());
   if (known != words_of_keys.end())
-    return known->second.words + ' ' + known->second.symbol;
+    return known->second.words + ' ' + known->second.symbol +
+           units.in_brackets(known->second.quantity);
   std::string text = setting.key;
   text[0] = std::tolower(text[0]);
   return text;
+}
+
+std::string told(const Setting& setting, const Units& units) {
+  const auto known = words_of_keys.find(setting.path());
+  if (known == words_of_keys.end())
+    return words(setting, units) + ' ' + setting.value;
+  return known->second.symbol + " = " + setting.value + units.after(known->second.quantity);
 }
 
 std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told) {
   std::string text = plan.scene;
   for (const Setting& setting : plan.varied)
     if (is_told(setting))
-      text += (text.empty() ? "" : ", ") + symbol(setting) +
-              (words_of_keys.count(setting.path()) > 0 ? " = " : " ") + setting.value;
+      text += (text.empty() ? "" : ", ") + told(setting, {1, plan.parameters.material});
   return text;
 }
 

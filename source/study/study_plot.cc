@@ -81,8 +81,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigne
   script << '\n';
 }
 
-} // namespace
-
+/// Evenly chosen curves, where there are more than can be told apart.
 std::vector<Curve> distinct(std::vector<Curve> curves) {
   std::vector<Curve> chosen;
   const std::size_t n = curves.size(), n_chosen = std::min<std::size_t>(n, most_curves);
@@ -91,7 +90,11 @@ std::vector<Curve> distinct(std::vector<Curve> curves) {
   return chosen;
 }
 
-Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels) {
+} // namespace
+
+Picture plot_panels(const std::string& title, std::vector<Panel> panels) {
+  for (Panel& panel : panels)
+    panel.curves = distinct(std::move(panel.curves));
   std::ostringstream script;
   script.precision(9);
   script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
@@ -117,14 +120,14 @@ Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels) 
   script << "set multiplot layout " << rows << ',' << columns << " title " << quoted(title)
          << " margins " << (is_single ? 0.14 : 0.09) << ",0.97,"
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
-         << 65. / height << '\n';
+         << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k, k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
-  return Drawing(script.str(), width, height);
+  return draw(script.str(), width, height);
 }
 
-Drawing plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
   std::ostringstream script;
   script.precision(9);
@@ -145,7 +148,7 @@ Drawing plot_map(const std::string& title, const std::string& x_label, const std
          << quoted(y_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1\n";
-  return Drawing(script.str(), 760, 560);
+  return draw(script.str(), 760, 560);
 }
 
 } // namespace rollwave

@@ -1,5 +1,7 @@
 #include "rollwave/study/study_record.h"
 
+#include "rollwave/scene/units.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -10,11 +12,23 @@
 
 namespace rollwave {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+
+static constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// These three are called by the library, which finds them by their names.
+static void to_json(Json& json, const Figure& figure) {
+  json = {figure.name, figure.value, figure.quantity}; // what is not a number becomes null
+}
+static void from_json(const Json& json, Figure& figure) {
+  const Json& value = json.at(1);
+  figure = Figure(json.at(0).get<std::string>(), value.is_null() ? none : value.get<double>(),
+                  json.at(2).get<Quantity>());
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRun, figures, reference, failure, is_refused, remarks,
+                                   shared, files, pressure)
 
 namespace {
-
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double or_none(const std::optional<double>& value) {
   return value.value_or(none);
@@ -37,71 +51,76 @@ std::string csv_field(std::string text) {
   return '"' + quoted + '"';
 }
 
-StudyRun run_of(const Json& json) {
-  StudyRun run;
-  for (const auto& [name, value] : json.at("figures").items())
-    run.figures.emplace_back(name, value.is_null() ? none : value.get<double>());
-  json.at("reference").get_to(run.reference);
-  json.at("failure").get_to(run.failure);
-  json.at("refused").get_to(run.is_refused);
-  json.at("remarks").get_to(run.remarks);
-  json.at("shared").get_to(run.shared);
-  json.at("files").get_to(run.files);
-  json.at("pressure").get_to(run.pressure);
-  return run;
+void add_errors(const Result& result, std::vector<Figure>& figures) {
+  const auto& [errors, certified, bounds] =
+      std::tie(result.errors, result.certified, result.load_bounds);
+  const double feasible = errors ? or_none(errors->admissible_energy_norm) : none;
+  figures.insert(
+      figures.end(),
+      {{"load_lower_bound", bounds ? bounds->lower : none, Quantity::force},
+       {"load_upper_bound", bounds ? bounds->upper : none, Quantity::force},
+       {"error_energy_norm", errors ? errors->energy_norm : none, Quantity::energy_norm},
+       {"error_relative", errors ? errors->relative_energy_norm : none},
+       {"error_l2_norm", errors ? errors->l2_norm : none, Quantity::area},
+       {"error_pressure", errors ? errors->pressure : none, Quantity::pressure_norm},
+       {"error_force", errors ? errors->force : none, Quantity::force},
+       {"error_energy", errors ? errors->energy : none, Quantity::energy},
+       {"error_half_width", errors ? errors->half_width : none, Quantity::angle},
+       {"expected_order", errors ? errors->expected_order : none},
+       {"error_feasible", feasible, Quantity::energy_norm},
+       {"certified_energy_norm", certified ? certified->energy_norm : none, Quantity::energy_norm},
+       {"certified_relative", certified ? certified->relative : none},
+       {"energy_lower_bound", certified ? certified->lower_bound : none, Quantity::energy},
+       {"energy_upper_bound", certified ? certified->upper_bound : none, Quantity::energy},
+       {"effectivity", errors ? or_none(errors->effectivity) : none},
+       {"bound_over_error",
+        certified && std::isgreater(feasible, 0.) ? certified->energy_norm / feasible : none}});
 }
 
 } // namespace
 
 std::optional<double> StudyRun::figure(const std::string& name) const {
-  for (const auto& [own_name, value] : figures)
-    if (own_name == name && !std::isnan(value))
-      return value;
+  for (const Figure& figure : figures)
+    if (figure.name == name && !std::isnan(figure.value))
+      return figure.value;
   return {};
 }
 
-std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
-  const auto& [mesh, patch, errors, certified] =
-      std::tie(result.mesh, result.patch, result.errors, result.certified);
-  const auto& bounds = result.load_bounds;
-  const double feasible = errors ? or_none(errors->admissible_energy_norm) : none;
-  std::vector<std::pair<std::string, double>> figures = {
+bool Study::has(const std::string& name) const {
+  for (unsigned int run = 0; run < runs.size(); ++run)
+    if (figure(run, name).value_or(0) > 0)
+      return true;
+  return false;
+}
+
+std::vector<Figure> figures_of(const Result& result) {
+  const auto& [mesh, patch] = std::tie(result.mesh, result.patch);
+  std::vector<Figure> figures = {
       {"degree", mesh.degree},
       {"cells", mesh.cells},
       {"dofs", mesh.dofs},
-      {"h_max", mesh.h_max},
+      {"h_max", mesh.h_max, Quantity::length},
       {"cycles", result.cycles.size()},
       {"contact_steps", result.history.size()},
       {"linear_iterations", result.work.linear_iterations},
-      {"road_distance", result.road_distance},
-      {"force", patch.force},
-      {"energy", result.energy.value},
-      {"half_width", patch.half_width()},
-      {"peak_pressure", patch.peak_pressure},
-      {"left_end", patch.ends ? patch.ends->first : none},
-      {"right_end", patch.ends ? patch.ends->second : none},
-      {"vertical_load", patch.vertical_load},
-      {"work_conjugate_load", patch.work_conjugate_load},
-      {"load_lower_bound", bounds ? bounds->lower : none},
-      {"load_upper_bound", bounds ? bounds->upper : none},
-      {"error_energy_norm", errors ? errors->energy_norm : none},
-      {"error_relative", errors ? errors->relative_energy_norm : none},
-      {"error_l2_norm", errors ? errors->l2_norm : none},
-      {"error_pressure", errors ? errors->pressure : none},
-      {"error_force", errors ? errors->force : none},
-      {"error_energy", errors ? errors->energy : none},
-      {"error_half_width", errors ? errors->half_width : none},
-      {"expected_order", errors ? errors->expected_order : none},
-      {"error_feasible", feasible},
-      {"certified_energy_norm", certified ? certified->energy_norm : none},
-      {"certified_relative", certified ? certified->relative : none},
-      {"energy_lower_bound", certified ? certified->lower_bound : none},
-      {"energy_upper_bound", certified ? certified->upper_bound : none},
-      {"effectivity", errors ? or_none(errors->effectivity) : none},
-      {"bound_over_error",
-       certified && std::isgreater(feasible, 0.) ? certified->energy_norm / feasible : none},
-      {"residual", result.residuals.largest()},
-      {"round_off", result.residuals.round_off}};
+      {"road_distance", result.road_distance, Quantity::length},
+      {"force", patch.force, Quantity::force},
+      {"energy", result.energy.value, Quantity::energy},
+      {"half_width", patch.patches.size() < 2 ? patch.half_width() : none, Quantity::angle},
+      {"peak_pressure", patch.peak_pressure, Quantity::pressure},
+      {"left_end", patch.ends ? patch.ends->first : none, Quantity::angle},
+      {"right_end", patch.ends ? patch.ends->second : none, Quantity::angle},
+      {"vertical_load", patch.vertical_load, Quantity::force},
+      {"work_conjugate_load", patch.work_conjugate_load, Quantity::force}};
+  add_errors(result, figures);
+  figures.insert(
+      figures.end(),
+      {{"residual", result.residuals.largest()},
+       {"round_off", result.residuals.round_off},
+       {"patches", patch.patches.size()},
+       {"stiffness_force", patch.stiffness.total, Quantity::stiffness},
+       {"stiffness_vertical_load", patch.stiffness.vertical, Quantity::stiffness},
+       {"stiffness_work_conjugate_load", patch.stiffness.work_conjugate, Quantity::stiffness}});
   const auto& seconds = result.work.seconds();
   for (const char* const phase : phases) {
     const auto spent = std::find_if(seconds.begin(), seconds.end(),
@@ -111,9 +130,9 @@ std::vector<std::pair<std::string, double>> figures_of(const Result& result) {
   }
   figures.emplace_back("seconds", result.work.total_seconds());
   figures.emplace_back("peak_memory_mib", result.peak_memory_mib);
-  for (auto& [name, value] : figures)
-    if (std::isinf(value)) // no number in JSON either
-      value = none;
+  for (Figure& figure : figures)
+    if (std::isinf(figure.value)) // no number in JSON either
+      figure.value = none;
   return figures;
 }
 
@@ -134,15 +153,10 @@ std::vector<std::pair<double, double>> pressure_of(const Result& result) {
   return pressure;
 }
 
-std::string to_json(const RunPlan& plan, const StudyRun& run) {
-  Json figures = Json::object();
-  for (const auto& [name, value] : run.figures)
-    figures[name] = std::isnan(value) ? Json() : Json(value);
-  return Json{
-      {"settings", plan.identity}, {"figures", figures},        {"reference", run.reference},
-      {"failure", run.failure},    {"refused", run.is_refused}, {"remarks", run.remarks},
-      {"shared", run.shared},      {"files", run.files},        {"pressure", run.pressure}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string study_line(const RunPlan& plan, const StudyRun& run) {
+  Json json = run;
+  json["settings"] = plan.identity;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::vector<std::pair<std::map<std::string, std::string>, StudyRun>>
@@ -152,8 +166,7 @@ read_study_runs(const std::string& text) {
   for (std::string line; std::getline(lines, line);)
     try {
       const Json json = Json::parse(line);
-      runs.emplace_back(json.at("settings").get<std::map<std::string, std::string>>(),
-                        run_of(json));
+      runs.emplace_back(json.at("settings"), json.get<StudyRun>());
     } catch (const Json::exception&) {
       // A line that is torn or of another kind.
     }
@@ -163,19 +176,19 @@ read_study_runs(const std::string& text) {
 std::string study_csv(const Study& study) {
   const RunPlan& first = study.plans.front();
   const bool has_scenes = !first.scene.empty();
-  std::vector<std::string> names;
+  std::vector<Figure> columns;
   for (const auto& run : study.runs)
-    if (run && names.empty())
-      for (const auto& figure : run->figures)
-        names.push_back(figure.first);
+    if (run && columns.empty())
+      columns = run->figures;
 
   std::ostringstream out;
   out << (has_scenes ? "scene," : "");
   for (const Setting& setting : first.varied)
     out << setting.path() << ',';
   out << "solved,published_steps,reference,failure,remarks,files";
-  for (const std::string& name : names)
-    out << ',' << name;
+  const Units units{1, first.parameters.material};
+  for (const Figure& figure : columns)
+    out << ',' << figure.name << units.in_brackets(figure.quantity);
   out << ",shared\n";
   for (unsigned int i = 0; i < study.plans.size(); ++i) {
     if (!study.runs[i])
@@ -193,8 +206,8 @@ std::string study_csv(const Study& study) {
         << (plan.published_steps ? std::to_string(*plan.published_steps) : "") << ','
         << csv_field(run.reference) << ',' << csv_field(run.failure) << ',' << csv_field(remarks)
         << ',' << run.files;
-    for (const std::string& name : names) {
-      const auto value = run.figure(name);
+    for (const Figure& figure : columns) {
+      const auto value = run.figure(figure.name);
       out << ',' << (value ? shortest_text(*value) : "");
     }
     out << ',' << csv_field(run.shared) << '\n';

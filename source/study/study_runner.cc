@@ -58,7 +58,7 @@ std::string earlier_runs(const Parameters& parameters, const fs::path& directory
     if (const auto plan = plan_of.find(identity); plan == plan_of.end())
       has_others = true;
     else if (is_final(run, parameters, directory))
-      kept += to_json(*plan->second, run) + '\n';
+      kept += study_line(*plan->second, run) + '\n';
   if (has_others)
     out << "Note: study.csv has rows of other runs, and is kept as " << set_study_aside(directory)
         << ".csv\n";
@@ -94,81 +94,72 @@ std::vector<std::string> choose_directories(const Study& study) {
   return directories;
 }
 
-void write_runs(const Parameters& parameters, const fs::path& directory, const Study& study) {
+void write_runs(const fs::path& directory, const Study& study) {
   std::string lines;
   for (unsigned int i = 0; i < study.runs.size(); ++i)
     if (study.runs[i])
-      lines += to_json(study.plans[i], *study.runs[i]) + '\n';
+      lines += study_line(study.plans[i], *study.runs[i]) + '\n';
   write_file(directory / "study.jsonl", lines);
   write_file(directory / "study.csv", study_csv(study));
-  if (is_input(parameters, directory / "parameters.prm"))
-    return;
-  std::ostringstream text, own_text;
-  text << std::ifstream(directory / "parameters.prm").rdbuf();
-  write_parameters(own_text, parameters);
-  if (text.str() != own_text.str())
-    write_file(directory / "parameters.prm", own_text.str());
 }
 
-/// Makes the runs of these numbers, by all processes together. False when the user has interrupted
-/// it.
-bool make_together(StudyBench& bench, const Study& study, const std::vector<unsigned int>& numbers,
-                   const std::vector<std::string>& directories,
-                   const std::function<void(unsigned int, StudyRun)>& add) {
-  for (const unsigned int number : numbers)
-    try {
-      add(number, bench.make(study.plans[number], directories[number]));
-    } catch (const Interrupted&) {
-      return false;
-    }
-  return true;
+/// Whether groups of processes make several runs at a time.
+bool is_farmed(const Parameters& parameters, MPI_Comm communicator) {
+  return parameters.study.processes_per_scene > 0 && !is_alone(communicator);
 }
 
-/// Makes the runs of these numbers in groups of processes at the same time. False when the user has
-/// interrupted it.
-bool make_in_groups(const std::function<StudyBench(MPI_Comm)>& make_bench, unsigned int group_size,
-                    MPI_Comm communicator, const Study& study,
-                    const std::vector<unsigned int>& numbers,
-                    const std::vector<std::string>& directories,
-                    const std::function<void(unsigned int, StudyRun)>& add) {
-  bool has_interrupted = false;
+/// Makes the runs of these numbers, on all processes together or in groups that make several at a
+/// time, and hands each to @p add. False when the user has interrupted it.
+bool make_runs(const Study& study, const std::vector<unsigned int>& numbers,
+               const std::vector<std::string>& directories, const Parameters& parameters,
+               const fs::path& directory, MPI_Comm communicator,
+               const std::function<void(unsigned int, StudyRun)>& add) {
+  // Each process, or each group, makes its runs one after the other.
   std::optional<StudyBench> bench;
-  farm_out(
-      communicator, group_size, numbers.size(),
-      [&](unsigned int task, const std::string& line) {
-        auto runs = read_study_runs(line);
-        has_interrupted = has_interrupted || is_interrupted(MPI_COMM_SELF) || runs.empty();
-        if (!runs.empty())
-          add(numbers[task], std::move(runs.front().second));
-        return !has_interrupted;
-      },
-      [&](unsigned int task, MPI_Comm group) {
-        if (!bench)
-          bench.emplace(make_bench(group));
-        const unsigned int number = numbers[task];
-        try {
-          const RunPlan& plan = study.plans[number];
-          return to_json(plan, bench->make(plan, directories[number]));
-        } catch (const Interrupted&) {
-          return std::string(); // which tells
-        }
-      });
-  return !has_interrupted;
+  const auto make = [&](unsigned int task, MPI_Comm group) {
+    if (!bench)
+      bench.emplace(study.plans, parameters, directory, group);
+    return bench->make(study.plans[numbers[task]], directories[numbers[task]]);
+  };
+  bool is_complete = true;
+  if (is_farmed(parameters, communicator))
+    farm_out(
+        communicator, parameters.study.processes_per_scene, numbers.size(),
+        [&](unsigned int task, const std::string& line) {
+          auto runs = read_study_runs(line); // none of a run that was interrupted
+          is_complete = is_complete && !runs.empty() && !is_interrupted(MPI_COMM_SELF);
+          if (!runs.empty())
+            add(numbers[task], std::move(runs.front().second));
+          return is_complete;
+        },
+        [&](unsigned int task, MPI_Comm group) {
+          try {
+            return study_line(study.plans[numbers[task]], make(task, group));
+          } catch (const Interrupted&) {
+            return std::string();
+          }
+        });
+  else
+    try {
+      for (unsigned int task = 0; task < numbers.size(); ++task)
+        add(numbers[task], make(task, communicator));
+    } catch (const Interrupted&) {
+      is_complete = false;
+    }
+  return is_complete;
 }
 
 } // namespace
 
-Study run_study(const Parameters& parameters, const fs::path& directory, std::ostream& out,
-                MPI_Comm communicator) {
+Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   const unsigned int n_processes = count_processes(communicator),
                      group_size = parameters.study.processes_per_scene;
-  const bool is_farmed = group_size > 0 && n_processes > 1;
-  if (is_farmed && group_size >= n_processes)
-    throw BadInput(refusal(parameters.settings, "Study", "Processes per scene",
-                           "one process hands out the scenes, so that there must be more than "
-                           "these"));
+  if (is_farmed(parameters, communicator) && group_size >= n_processes)
+    throw BadValue("Study", "Processes per scene",
+                   "one process hands out the scenes, so that there must be more than these");
   Study study;
-  study.plans = plan_runs(parameters, is_farmed ? group_size : n_processes);
+  study.plans =
+      plan_runs(parameters, is_farmed(parameters, communicator) ? group_size : n_processes);
   study.runs.resize(study.plans.size());
   study.has_true_errors = parameters.study.true_errors;
   unsigned int place = 0;
@@ -176,10 +167,20 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
     study.first_keys.push_back(place);
     place += variation.front().size();
   }
+  return study;
+}
+
+void run_study(Study& study, const Parameters& parameters, const fs::path& directory,
+               std::ostream& out, MPI_Comm communicator) {
   const bool is_first = process_number(communicator) == 0;
   adopt(share_text(communicator, is_first ? earlier_runs(parameters, directory, study.plans, out)
                                           : std::string()),
         study);
+  if (is_first && !is_input(parameters, directory / "parameters.prm")) {
+    std::ostringstream text;
+    write_parameters(text, parameters);
+    write_file(directory / "parameters.prm", text.str());
+  }
   const StudyTable table(study);
   const auto directories = parameters.study.files_of_each_run.empty()
                                ? std::vector<std::string>(study.runs.size())
@@ -196,22 +197,11 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
     study.runs[number] = std::move(run);
     out << table.row(number) << std::flush;
     if (is_first)
-      write_runs(parameters, directory, study);
+      write_runs(directory, study);
   };
   if (is_first && numbers.size() < study.runs.size())
-    write_runs(parameters, directory, study);
-  const auto make_bench = [&](MPI_Comm group) {
-    return StudyBench(study.plans, parameters, directory, group);
-  };
-  bool is_complete = true;
-  if (is_farmed)
-    is_complete =
-        make_in_groups(make_bench, group_size, communicator, study, numbers, directories, add);
-  else {
-    StudyBench bench = make_bench(communicator);
-    is_complete = make_together(bench, study, numbers, directories, add);
-  }
-  if (!is_complete) {
+    write_runs(directory, study);
+  if (!make_runs(study, numbers, directories, parameters, directory, communicator, add)) {
     const auto n_made = std::count_if(study.runs.begin(), study.runs.end(),
                                       [](const auto& run) { return run.has_value(); });
     if (n_made == 0)
@@ -220,7 +210,6 @@ Study run_study(const Parameters& parameters, const fs::path& directory, std::os
                       std::to_string(study.runs.size()) +
                       " runs; the same command goes on with the others";
   }
-  return study;
 }
 
 } // namespace rollwave

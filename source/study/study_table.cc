@@ -6,15 +6,13 @@
 #include <cctype>
 #include <iomanip>
 #include <map>
+#include <numeric>
 #include <ostream>
 #include <sstream>
 
 namespace rollwave {
 
 namespace {
-
-constexpr unsigned int widest_table = 100, widest_outcome = 11;
-constexpr unsigned int widest_text = 24, narrowest_text = 4;
 
 std::string text_of(const std::optional<double>& value, int digits) {
   std::ostringstream text;
@@ -24,20 +22,15 @@ std::string text_of(const std::optional<double>& value, int digits) {
   return value ? text.str() : "-";
 }
 
-std::vector<std::string> words_of(const std::string& title) {
-  return split(title, ' ');
-}
-
-/// @p text in a column.
-std::string aligned(std::string text, unsigned int width, bool is_left) {
+/// @p text at the right of a column, and two blanks behind it.
+std::string in_column(std::string text, unsigned int width) {
   if (text.size() > width)
     text = text.substr(0, width - 2) + "..";
-  const std::string blanks(width - text.size(), ' ');
-  return is_left ? text + blanks : blanks + text;
+  return std::string(width - text.size(), ' ') + text + "  ";
 }
 
-std::string without_blanks_at_end(const std::string& line) {
-  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+std::string line_of(const std::string& cells) {
+  return cells.substr(0, cells.find_last_not_of(' ') + 1) + '\n';
 }
 
 /// Says each text once, with the runs that it holds for: texts that differ in their numbers only
@@ -71,92 +64,77 @@ bool any(const Study& study, const std::function<bool(const RunPlan&)>& is) {
 } // namespace
 
 StudyTable::StudyTable(const Study& study) : study(study), families(find_families(study)) {
-  family_of.resize(study.plans.size());
-  for (unsigned int i = 0; i < families.size(); ++i)
-    for (const unsigned int run : families[i].runs)
-      family_of[run] = i;
-  const auto figure = [&study](const std::string& name, int digits) {
-    return [&study, name, digits](unsigned int run) {
-      return text_of(study.figure(run, name), digits);
-    };
-  };
-  add("run", 4, [](unsigned int run) { return std::to_string(run + 1); });
+  columns.push_back({"run", 4, [](unsigned int run) { return std::to_string(run + 1); }});
   add_settings();
-  const bool is_adaptive =
-      any(study, [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  if (is_adaptive)
-    add("N", 9, figure("dofs", 9));
-  else
-    add("h", 8, figure("h_max", 3));
-  add("steps", 5, figure("contact_steps", 9));
-  if (any(study, [](const RunPlan& plan) { return plan.published_steps.has_value(); }))
-    add("published", 9, [&study](unsigned int run) {
-      const auto& steps = study.plans[run].published_steps;
-      return steps ? std::to_string(*steps) : std::string("-");
-    });
-  const bool has_certificate =
+  const Units units{1, study.plans.front().parameters.material};
+  const bool is_certified =
       any(study, [](const RunPlan& plan) { return plan.parameters.certificate.error_bound; });
+  if (any(study, [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; }))
+    add_figure("N", 9, "dofs", 9);
+  else
+    add_figure("h" + units.in_brackets(Quantity::length), 8, "h_max", 3);
+  add_figure("steps", 5, "contact_steps", 9);
+  if (study.has("published_steps"))
+    add_figure("published", 9, "published_steps", 9);
   if (study.has_true_errors)
-    add("error", 8, figure("error_relative", 3));
-  if (has_certificate)
-    add("certified", 9, figure("certified_relative", 3));
-  if ((study.has_true_errors || has_certificate) && families.size() < study.plans.size())
-    add("order", 6, [this](unsigned int run) {
-      return text_of(observed_order(this->study, families[family_of[run]], run), 3);
-    });
-  add("F", 14, figure("force", 9));
-  add("seconds", 8, figure("seconds", 3));
-  make_narrow();
-}
-
-void StudyTable::add(const std::string& title, unsigned int width,
-                     const std::function<std::string(unsigned int run)>& cell) {
-  const bool is_text = width == 0; // whose width is that of its cells
-  for (const std::string& word : words_of(title))
-    width = std::max<unsigned int>(width, word.size());
-  for (unsigned int run = 0; is_text && run < study.plans.size(); ++run)
-    width = std::max<unsigned int>(width, cell(run).size());
-  columns.push_back({title, is_text, std::min(width, widest_text), cell});
-}
-
-void StudyTable::add_settings() {
-  if (!study.plans.front().scene.empty())
-    add("scene", 0, [this](unsigned int run) { return study.plans[run].scene; });
-  for (unsigned int k = 0; k < study.plans.front().varied.size(); ++k)
-    add(study.plans.front().varied[k].key, 0,
-        [this, k](unsigned int run) { return study.plans[run].varied[k].value; });
-}
-
-/// Cuts texts, and leaves the first keys out where that does not suffice.
-void StudyTable::make_narrow() {
-  const auto width = [this] {
-    unsigned int sum = widest_outcome;
-    for (const Column& column : columns)
-      sum += column.width + 2;
-    return sum;
+    add_figure("error", 8, "error_relative", 3);
+  if (is_certified)
+    add_figure("certified", 9, "certified_relative", 3);
+  if ((study.has_true_errors || is_certified) && families.size() < study.plans.size())
+    columns.push_back({"order", 6, [this](unsigned int run) {
+                         return text_of(observed_order(this->study, families, run), 3);
+                       }});
+  add_figure("F" + units.in_brackets(Quantity::force), 14, "force", 9);
+  add_figure("seconds", 8, "seconds", 3);
+  // The first keys are left out where all are too many.
+  constexpr unsigned int widest = 100, outcome = 11;
+  const auto add_width = [](unsigned int sum, const Column& column) {
+    return sum + column.width + 2;
   };
-  for (unsigned int most = widest_text; width() > widest_table && most >= narrowest_text; --most)
-    for (Column& column : columns)
-      if (column.is_text)
-        column.width = std::min(column.width, most);
-  while (width() > widest_table)
+  while (std::accumulate(columns.begin(), columns.end(), outcome, add_width) > widest)
     columns.erase(columns.begin() + 1);
 }
 
+void StudyTable::add_figure(const std::string& title, unsigned int width, const std::string& figure,
+                            int digits) {
+  columns.push_back({title, width, [this, figure, digits](unsigned int run) {
+                       return text_of(study.figure(run, figure), digits);
+                     }});
+}
+
+/// The name of the scene and the varied keys, as wide as their words and values are.
+void StudyTable::add_settings() {
+  const auto add = [this](const std::string& title,
+                          const std::function<std::string(const RunPlan&)>& value) {
+    constexpr std::size_t widest = 24;
+    std::size_t width = 0;
+    for (const std::string& word : split(title, ' '))
+      width = std::max(width, word.size());
+    for (const RunPlan& plan : study.plans)
+      width = std::max(width, value(plan).size());
+    columns.push_back({title, static_cast<unsigned int>(std::min(width, widest)),
+                       [this, value](unsigned int run) { return value(study.plans[run]); }});
+  };
+  if (!study.plans.front().scene.empty())
+    add("scene", [](const RunPlan& plan) { return plan.scene; });
+  for (unsigned int k = 0; k < study.plans.front().varied.size(); ++k)
+    add(study.plans.front().varied[k].key,
+        [k](const RunPlan& plan) { return plan.varied[k].value; });
+}
+
 std::string StudyTable::header() const {
-  unsigned int n_lines = 0;
+  std::size_t n_lines = 0;
   for (const Column& column : columns)
-    n_lines = std::max<unsigned int>(n_lines, words_of(column.title).size());
+    n_lines = std::max(n_lines, split(column.title, ' ').size());
   std::string text;
-  for (unsigned int line = 0; line < n_lines; ++line) {
+  for (std::size_t line = 0; line < n_lines; ++line) {
     std::string cells;
     for (const Column& column : columns) {
-      const auto words = words_of(column.title);
-      const unsigned int n_above = n_lines - words.size();
-      cells +=
-          aligned(line < n_above ? "" : words[line - n_above], column.width, column.is_text) + "  ";
+      const auto words = split(column.title, ' ');
+      const std::size_t n_above = n_lines - words.size();
+      cells += in_column(line < n_above ? "" : words[line - n_above], column.width);
     }
-    text += without_blanks_at_end(cells);
+    text += line_of(cells);
   }
   return text;
 }
@@ -164,17 +142,17 @@ std::string StudyTable::header() const {
 std::string StudyTable::row(unsigned int run, const std::string& outcome) const {
   std::string cells;
   for (const Column& column : columns)
-    cells += aligned(column.cell(run), column.width, column.is_text) + "  ";
+    cells += in_column(column.cell(run), column.width);
   const StudyRun& made = *study.runs[run];
-  return without_blanks_at_end(cells + (made.failure.empty() ? outcome
-                                        : made.is_solved()   ? "falls short"
-                                                             : "not solved"));
+  return line_of(cells + (made.failure.empty() ? outcome
+                          : made.is_solved()   ? "falls short"
+                                               : "not solved"));
 }
 
 std::string StudyTable::tex() const {
   std::string format, titles, rows;
   for (const Column& column : columns) {
-    format += column.is_text ? 'l' : 'r';
+    format += 'r';
     titles += (titles.empty() ? "" : " & ") + in_tex(column.title);
   }
   for (unsigned int run = 0; run < study.runs.size(); ++run)
@@ -182,22 +160,13 @@ std::string StudyTable::tex() const {
       std::string cells;
       for (const Column& column : columns)
         cells += (cells.empty() ? "" : " & ") +
-                 in_tex(trimmed(aligned(column.cell(run), column.width, false)));
+                 in_tex(trimmed(in_column(column.cell(run), column.width)));
       rows += cells + " \\\\\n";
     }
   return "\\documentclass{article}\n\\usepackage[margin=15mm]{geometry}\n\\usepackage{longtable}\n"
          "\\begin{document}\n\\footnotesize\\setlength{\\tabcolsep}{3pt}\n\\begin{longtable}{" +
          format + "}\n\\hline\n" + titles + " \\\\\n\\hline\\endhead\n" + rows +
          "\\hline\n\\end{longtable}\n\\end{document}\n";
-}
-
-void print_study(std::ostream& out, const Study& study) {
-  const StudyTable table(study);
-  out << table.header();
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run])
-      out << table.row(run);
-  print_study_notes(out, study);
 }
 
 void print_study_notes(std::ostream& out, const Study& study) {

@@ -44,7 +44,7 @@ struct ContactProblem {
   dealii::Vector<double> weight;         ///< the nodes' areas, see SurfaceNode
   std::vector<double> x;                 ///< the nodes' angles from the lowest point
   Road shape;                            ///< of the road that phi_i belongs to
-  double unit = 1;                       ///< of length, Scene::unit
+  double unit = 1;                       ///< of displacement over pressure, in the user's
   MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
 
   unsigned int size() const { return road.size(); }

@@ -8,7 +8,8 @@
 namespace rollwave {
 
 /// The scene; the surroundings of the contact at true scale; over the angle gap and pressure there.
-Drawing plot_scene(const Scene& scene, const Result& result);
+/// @param result in the user's units
+Picture plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave
 

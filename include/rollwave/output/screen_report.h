@@ -17,7 +17,8 @@ namespace rollwave {
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters);
 
 /// Tells what a run has found: mesh, a line for each contact step, results and residuals.
-void report_result(std::ostream& out, const Result& result);
+/// @param result in the user's units, which @p units name
+void report_result(std::ostream& out, const Result& result, const Units& units);
 
 /// Tells where the time went and which files were written.
 void report_end(std::ostream& out, const Work& work, const WrittenFiles& written);

@@ -11,11 +11,12 @@ namespace rollwave {
 
 /// The deformed surface as VTU, one closed line through its nodes, with the point fields `angle`
 /// z, `displacement` u, `pressure` lambda and `gap` phi - u, which is not a number where the road
-/// is not within b of the surface. @p unit is what the unit of the scene is to be written as.
-std::string surface_vtu(const Scene& scene, const Result& result, double unit);
+/// is not within b of the surface.
+/// @param result in the user's units
+std::string surface_vtu(const Scene& scene, const Result& result);
 
 /// The road as VTU, a line with the point field `angle`.
-std::string road_vtu(const Scene& scene, double unit);
+std::string road_vtu(const Scene& scene);
 
 /// Angles, evenly spaced, at which the road lies below the axle and within @p radius of it.
 std::vector<double> angles_of_road(const Scene& scene, double radius);

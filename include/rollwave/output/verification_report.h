@@ -9,7 +9,7 @@
 
 namespace rollwave {
 
-/// Prints our numbers beside the exact ones, with their differences, in the user's lengths.
+/// Prints our numbers beside the exact ones, with their differences, in the user's units.
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
                          const ExactSolution& exact);
 

@@ -2,7 +2,7 @@
 #define ROLLWAVE_OUTPUT_VTU_H
 
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/run/solution.h"
+#include "rollwave/run/simulation.h"
 
 #include <iosfwd>
 #include <string>
@@ -18,14 +18,12 @@ namespace rollwave {
  * `F`. Elements of degree p become VTK's Lagrange cells with (p + 1)^2 nodes, or p^2 linear cells.
  * A failure to write is left in the state of the stream.
  *
- * Of several processes each writes its own cells, of which there must be one. @p unit is what the
- * unit of the scene is to be written as.
+ * Of several processes each writes its own cells, of which there must be one.
  */
-void write_solution_vtu(std::ostream& out, const Scene& scene, const Solution& solution,
-                        CellKind kind, double unit);
+void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind);
 
 /// Writes the file that holds together the @p pieces, the names of all processes' files.
-void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind cells,
+void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind kind,
                          const std::vector<std::string>& pieces);
 
 } // namespace rollwave

@@ -1,10 +1,14 @@
 #ifndef ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
 #define ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
 
+#include "rollwave/scene/units.h"
+
 #include <set>
 #include <string>
 
 namespace rollwave {
+
+class Declarations;
 
 enum class OutputFile { summary, contact, parameters, solution, surface, plot };
 
@@ -21,6 +25,9 @@ struct OutputOptions {
 /// A list of kinds of files, and parameters. @throws std::invalid_argument for an unknown one,
 /// BadInput for one of earlier versions
 std::set<OutputFile> parse_files(const std::string& text);
+
+/// The keys of the section.
+void declare_output(Declarations& keys, OutputOptions& output, UnitNames& names);
 
 } // namespace rollwave
 

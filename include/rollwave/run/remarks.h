@@ -17,9 +17,12 @@ namespace rollwave {
 std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& options,
                                     const RingSpace& space, const Result& result);
 
-/// How many unknowns the wanted error needs by the rate of the meshes so far, such as "1e-07 needs
-/// about 4e+06 unknowns at degree 2"; empty where these are too few to tell.
-std::string cost_text(const RunOptions& options, const Result& result);
+/// What of the wanted error is missing and why, and what to do.
+std::string missing_error_text(const RunOptions& options, const Result& result,
+                               bool is_at_finest_level);
+
+/// That the conditions of contact and equilibrium do not hold as well as wanted.
+std::string residual_text(const Residuals& residuals);
 
 } // namespace rollwave
 

@@ -4,6 +4,7 @@
 #include "rollwave/base/work.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/error_bound/error_bound.h"
+#include "rollwave/scene/units.h"
 
 #include <optional>
 #include <vector>
@@ -85,7 +86,7 @@ struct ContactRow {
   double road;
   double gap;
   double pressure;
-  double weight; ///< area for a unit of the axle's length: pressures times it add up to the force
+  double weight; ///< an area: pressures times it add up to the force
 };
 
 /// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing
@@ -98,7 +99,7 @@ struct SurfacePoint {
   double displacement;
 };
 
-/// All numbers of one solved scene, lengths in the unit of the scene.
+/// All numbers of one solved scene, in its units.
 struct Result {
   MeshFigures mesh;
   double road_distance; ///< c, a length
@@ -125,9 +126,8 @@ struct Result {
 /// The shortfalls with "; " between them.
 std::string shortfall_text(const Result& result);
 
-/// The same with lengths in the user's lengths, of which @p unit is Scene::unit: what is a length
-/// is multiplied by it, energies by its square.
-Result to_lengths(Result result, double unit);
+/// The same in the user's units, of which @p units are those of the scene.
+Result in_users_units(Result result, const Units& units);
 
 } // namespace rollwave
 

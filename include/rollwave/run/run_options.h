@@ -14,6 +14,7 @@ namespace rollwave {
 struct RunOptions {
   CylinderOptions cylinder;
   RoadOptions road;
+  MaterialOptions material;
   struct : MeshOptions, RefinementOptions {
   } mesh;
   CertificateOptions certificate;

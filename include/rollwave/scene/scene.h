@@ -2,6 +2,7 @@
 #define ROLLWAVE_SCENE_SCENE_H
 
 #include "rollwave/scene/road.h"
+#include "rollwave/scene/units.h"
 
 #include <functional>
 #include <optional>
@@ -10,7 +11,7 @@
 
 namespace rollwave {
 
-/// Section `Cylinder`; lengths share a unit of the user's choice.
+/// Section `Cylinder`; all options are in the user's units.
 struct CylinderOptions {
   double inner_radius = 0.5;
   double outer_radius = 1;
@@ -27,7 +28,7 @@ enum class LoadKind {
 /// Section `Road`.
 struct RoadOptions {
   double distance = 0.8;
-  std::optional<double> load; ///< a force over the shear modulus, by the axle's length: a length
+  std::optional<double> load; ///< a force
   LoadKind load_kind = LoadKind::vertical;
   double curvature = 0;
   std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
@@ -55,7 +56,8 @@ struct RoadOptions {
  *
  * Lengths are in a unit of the scene's own, a power of two, so that b is near 1 in it however long
  * the user's lengths are: nothing overflows, and a scene scaled by a power of two has the same
- * numbers to the last bit. What is computed from a scene is in its unit; to_lengths() leads back.
+ * numbers to the last bit. The shear modulus, the wave speed and the width are 1 as well. What is
+ * computed from a scene is in its units; in_users_units() leads back.
  */
 struct Scene {
   double inner_radius;     ///< a, a length
@@ -82,7 +84,7 @@ struct Scene {
     return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
   }
 
-  std::string force_text = {}; ///< the expression of f as the user gave it
+  std::string force_text = {}; ///< the user's expression and modulus, which make f
 
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform_force = {};
@@ -90,7 +92,7 @@ struct Scene {
   /// Whether f is no number.
   bool has_uneven_force() const { return force && !uniform_force; }
 
-  double unit = 1; ///< the unit of length, in the user's lengths
+  Units units = {}; ///< in the user's
 
   double road_distance = 0;  ///< c, a length
   double road_curvature = 0; ///< kappa, one over a length
@@ -115,7 +117,7 @@ struct Scene {
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
 };
 
-/// What is wrong with a force that is not finite at a point, r in the scene's unit.
+/// What is wrong with a force that is not finite at a point, r in the scene's units.
 std::string force_not_finite_at(const Scene& scene, double r, double z);
 
 /// The scene with its road moved to the distance @p c below the axle, a length. The zone stays.
@@ -127,12 +129,12 @@ Scene with_distance(Scene scene, double c);
  * Its unit of length is the power of two with b in [1, 2).
  *
  * @param angular_cells those of the first mesh: an automatic zone is two cells wider than contact
- * @throws BadValue unless 0 < a < b, 0 <= omega <= 1/b, a < c, c < 2 b with an automatic zone,
- *         -1/kappa > b and c for kappa < 0, pi < z0 < z1 < 2 pi and the force can be parsed and is
+ * @throws BadValue unless 0 < a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an automatic
+ * zone, -1/kappa > b and c for kappa < 0, pi < z0 < z1 < 2 pi and the force can be parsed and is
  * finite.
  */
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
-                 unsigned int angular_cells);
+                 const MaterialOptions& material, unsigned int angular_cells);
 
 } // namespace rollwave
 

@@ -10,9 +10,6 @@
 
 namespace rollwave {
 
-/// Whether a key says how fine a mesh is, and nothing else.
-bool is_of_mesh_size(const Setting& setting);
-
 /// Runs that differ in how fine their meshes are only, in the order of the study.
 struct Family {
   std::string name; ///< what they have in common
@@ -24,9 +21,10 @@ struct Family {
 std::vector<Family> find_families(const Study& study);
 
 /// The order of the error in the energy norm, or else of its certified bound, from the run before
-/// in the family: in h where all cells are cut alike, in N^(-1/2) where the meshes are adaptive,
+/// in its family: in h where all cells are cut alike, in N^(-1/2) where the meshes are adaptive,
 /// otherwise nullopt.
-std::optional<double> observed_order(const Study& study, const Family& family, unsigned int run);
+std::optional<double> observed_order(const Study& study, const std::vector<Family>& families,
+                                     unsigned int run);
 
 /// For each family with three meshes or more the orders of its errors over the last three
 /// refinements, fitted by least squares, with the standard errors of the fits.

@@ -2,12 +2,11 @@
 #define ROLLWAVE_STUDY_STUDY_BENCH_H
 
 #include "rollwave/exact/exact_solution.h"
-#include "rollwave/run/solution.h"
+#include "rollwave/run/simulation.h"
 #include "rollwave/study/study_record.h"
 
 #include <mpi.h>
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -36,7 +35,7 @@ private:
 
   void warm_up();
   void solve(const RunPlan& plan, StudyRun& run);
-  const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
+  const std::optional<ExactSolution>& exact_solution(const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
@@ -46,8 +45,7 @@ private:
   std::map<MeshKey, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
   std::optional<MeshKey> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;
-  /// By all but the mesh, and by zone and distance.
-  std::map<std::pair<MeshKey, std::array<double, 3>>, std::optional<ExactSolution>> exact_solutions;
+  std::map<std::vector<double>, std::optional<ExactSolution>> exact_solutions; ///< by their scenes
 };
 
 } // namespace rollwave

@@ -13,13 +13,12 @@ namespace rollwave {
  * study.tex (the same as a LaTeX document), study.pvd (the fields of the runs, where they are
  * written) and plots:
  *
- * - study.svg: contact steps over the key that varies fastest, where that is a number,
- *   study-curves.svg: loads, half-width and peak pressure over it;
- * - study-profiles.svg: pressures along the surface;
- * - study-map.svg: the vertical load over two keys;
+ * - study-curves.svg: loads, stiffness, half-width and peak pressure over the key that varies
+ *   fastest, where that is a number of the scene, study-profiles.svg: pressures along the surface,
+ *   study-map.svg: the vertical load over two such keys;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
- *   over h, unknowns and seconds, study-steps.svg and study-iterations.svg: contact steps and
- *   linear iterations over unknowns.
+ *   over h, unknowns and seconds;
+ * - study.svg: contact steps over the key that varies fastest, where that is a number.
  *
  * @throws NotWritten
  */

@@ -2,6 +2,7 @@
 #define ROLLWAVE_STUDY_STUDY_PLAN_H
 
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/scene/units.h"
 
 #include <functional>
 #include <map>
@@ -29,11 +30,11 @@ struct RunPlan {
 ///         for each run
 std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes);
 
-/// A key as a symbol, such as "c", where it has one, or in words.
-std::string symbol(const Setting& setting);
+/// A key in words, with its symbol and unit, such as "road distance c [m]".
+std::string words(const Setting& setting, const Units& units);
 
-/// A key in words, with its symbol, such as "road distance c".
-std::string words(const Setting& setting);
+/// A key with its value, such as "c = 0.8 m" or "degree 2".
+std::string told(const Setting& setting, const Units& units);
 
 /// The scene and the settings for which @p is_told, as text: "c = 0.8, degree 2".
 std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told);

@@ -26,14 +26,12 @@ struct Panel {
   std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
 };
 
-/// Evenly chosen curves, where there are more than can be told apart.
-std::vector<Curve> distinct(std::vector<Curve> curves);
-
-/// Panels beside and below each other. They have the same curves, with one legend below them.
-Drawing plot_panels(const std::string& title, const std::vector<Panel>& panels);
+/// Panels beside and below each other. They have the same curves, with one legend below them; of
+/// more curves than can be told apart, evenly chosen ones.
+Picture plot_panels(const std::string& title, std::vector<Panel> panels);
 
 /// Values over a grid of x and y as colours with contour lines, in lines of constant x.
-Drawing plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines);
 
 } // namespace rollwave

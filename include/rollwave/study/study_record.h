@@ -2,6 +2,7 @@
 #define ROLLWAVE_STUDY_STUDY_RECORD_H
 
 #include "rollwave/run/result.h"
+#include "rollwave/scene/units.h"
 #include "rollwave/study/study_plan.h"
 
 #include <optional>
@@ -11,12 +12,22 @@
 
 namespace rollwave {
 
+/// A number that a run has found, by its name in study.csv; not a number where there is none.
+struct Figure {
+  Figure() = default;
+  template <typename Number>
+  Figure(std::string name, Number value, Quantity quantity = Quantity::number)
+      : name(std::move(name)), value(value), quantity(quantity) {}
+
+  std::string name;
+  double value = 0;
+  Quantity quantity = Quantity::number;
+};
+
 /// What one run of a study has found.
 struct StudyRun {
-  /// By name, as in the columns of study.csv, not a number where there is none; without entries
-  /// where it was not solved.
-  std::vector<std::pair<std::string, double>> figures;
-  std::string reference;   ///< what its errors are measured against; empty without errors
+  std::vector<Figure> figures; ///< none where it was not solved
+  std::string reference;       ///< what its errors are measured against; empty without errors
   std::string failure;     ///< why it was not solved, or not to what was wanted; empty where it was
   bool is_refused = false; ///< whether it is the parameters that fail
   std::vector<std::string> remarks;
@@ -40,18 +51,23 @@ struct Study {
   std::string shortfall = ""; ///< where the user has interrupted it; mostly empty
 
   std::optional<double> figure(unsigned int run, const std::string& name) const {
+    if (name == "published_steps")
+      return plans[run].published_steps;
     return runs[run] ? runs[run]->figure(name) : std::nullopt;
   }
+
+  /// Whether any run has a figure that is greater than 0.
+  bool has(const std::string& name) const;
 };
 
 /// The figures of a solved scene with its peak memory, seconds last.
-std::vector<std::pair<std::string, double>> figures_of(const Result& result);
+std::vector<Figure> figures_of(const Result& result);
 
 /// The pressure from the node before contact to that behind it, at about a hundred nodes at most.
 std::vector<std::pair<double, double>> pressure_of(const Result& result);
 
 /// A line of study.jsonl: a run with what it was asked to do.
-std::string to_json(const RunPlan& plan, const StudyRun& run);
+std::string study_line(const RunPlan& plan, const StudyRun& run);
 
 /// The runs of the lines of study.jsonl, with their RunPlan::identity; lines of another kind are
 /// left out.

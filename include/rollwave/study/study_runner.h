@@ -10,9 +10,13 @@
 
 namespace rollwave {
 
+/// The runs that a study is to make, none of which has been made.
+/// @throws BadInput as plan_runs()
+Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_SELF);
+
 /**
- * Makes all runs of plan_runs() and prints the table of the study on @p out, each row when its run
- * has ended. A run that cannot be solved is a row like the others.
+ * Makes the runs of a planned @p study and prints the table of the study on @p out, each row when
+ * its run has ended. A run that cannot be solved is a row like the others.
  *
  * After each run study.csv and study.jsonl are written to @p directory. What study.jsonl already
  * has of the same runs is not made again, unless a run failed for another reason than its
@@ -25,11 +29,10 @@ namespace rollwave {
  * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
  * and no further run is begun.
  *
- * @throws BadInput as plan_runs(), before anything is written; NotWritten; Interrupted before there
- *         is a row.
+ * @throws NotWritten; Interrupted before there is a row.
  */
-Study run_study(const Parameters& parameters, const std::filesystem::path& directory,
-                std::ostream& out, MPI_Comm communicator = MPI_COMM_SELF);
+void run_study(Study& study, const Parameters& parameters, const std::filesystem::path& directory,
+               std::ostream& out, MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave
 

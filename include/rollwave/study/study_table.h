@@ -27,27 +27,21 @@ public:
 private:
   struct Column {
     std::string title; ///< its words stand one below the other
-    bool is_text;      ///< which may be cut and stands at the left
     unsigned int width;
     std::function<std::string(unsigned int run)> cell;
   };
 
-  void add(const std::string& title, unsigned int width,
-           const std::function<std::string(unsigned int run)>& cell);
   void add_settings();
-  void make_narrow();
+  void add_figure(const std::string& title, unsigned int width, const std::string& figure,
+                  int digits);
 
   const Study& study;
   const std::vector<Family> families;
-  std::vector<unsigned int> family_of; ///< its number, for each run
   std::vector<Column> columns;
 };
 
-/// The table with what is to be said to it: failures and remarks once for all runs that have them,
-/// and the orders of errors.
-void print_study(std::ostream& out, const Study& study);
-
-/// The same without the table.
+/// What is to be said to the table: failures and remarks once for all runs that have them, and the
+/// orders of errors.
 void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave

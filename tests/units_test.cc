@@ -1,0 +1,180 @@
+// A scene in the user's units is the scene with radius, shear modulus, wave speed and width 1.
+#include "own_path.h"
+#include "rollwave/base/errors.h"
+#include "rollwave/output/screen_report.h"
+#include "rollwave/run/simulation.h"
+#include "rollwave/scene/units.h"
+#include "rollwave/study/study_runner.h"
+#include "rollwave/verify/reference_solution.h"
+#include "rollwave/verify/true_errors.h"
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+using namespace rollwave;
+
+namespace {
+
+constexpr double b = 0.035, mu = 5e5, rho = 1100, width = 0.3; // in SI units
+const double wave_speed = std::sqrt(mu / rho), force_unit = mu * width * b;
+
+/// The cylinder with a = b / 2 on a small mesh in SI units, or with b = 1.
+std::vector<std::string> cylinder(bool is_si, double omega_b) {
+  std::vector<std::string> settings = {
+      assignment("Cylinder/Inner radius", is_si ? b / 2 : 0.5),
+      assignment("Cylinder/Outer radius", is_si ? b : 1),
+      assignment("Cylinder/Angular velocity", is_si ? omega_b * wave_speed / b : omega_b),
+      "Mesh/Radial cells=4", "Mesh/Angular cells=60"};
+  if (is_si)
+    settings.insert(settings.end(),
+                    {assignment("Material/Shear modulus", mu), assignment("Material/Density", rho),
+                     assignment("Material/Width", width), "Output/Unit names=m, s, N"});
+  return settings;
+}
+
+Result solve(std::vector<std::string> settings, const std::vector<std::string>& more) {
+  settings.insert(settings.end(), more.begin(), more.end());
+  const Parameters parameters = parameters_of(settings);
+  Solution solution = simulate(make_scene(parameters), parameters);
+  if (const auto exact = find_exact_solution(solution.scene))
+    solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
+                                                 solution.result, solution.certificate, *exact);
+  return in_users_units(solution.result, solution.scene.units);
+}
+
+void expect_same(const Result& si, const Result& one) {
+  const auto expect_near = [](double ours, double unit, double theirs, double scale) {
+    EXPECT_NEAR(ours / unit, theirs, 1e-12 * std::abs(scale)) << unit;
+  };
+  const double energy = force_unit * b, size = one.energy.norm_squared;
+  expect_near(si.road_distance, b, one.road_distance, 1);
+  expect_near(si.mesh.h_max, b, one.mesh.h_max, 1);
+  expect_near(si.patch.force, force_unit, one.patch.force, one.patch.force);
+  expect_near(si.patch.vertical_load, force_unit, one.patch.vertical_load, one.patch.force);
+  expect_near(si.patch.work_conjugate_load, force_unit, one.patch.work_conjugate_load,
+              one.patch.force);
+  expect_near(si.patch.peak_pressure, mu, one.patch.peak_pressure, one.patch.peak_pressure);
+  expect_near(si.patch.stiffness.vertical, mu * width, one.patch.stiffness.vertical,
+              one.patch.stiffness.vertical);
+  expect_near(si.energy.value, energy, one.energy.value, size);
+  expect_near(si.energy.norm_squared, energy, size, size);
+  expect_near(si.certified->lower_bound, energy, one.certified->lower_bound, size);
+  expect_near(si.certified->upper_bound, energy, one.certified->upper_bound, size);
+  EXPECT_NEAR(si.certified->energy_norm / std::sqrt(energy) / one.certified->energy_norm, 1, 1e-9);
+  EXPECT_EQ(si.history.size(), one.history.size());
+  double force = 0;
+  for (const ContactRow& row : si.contact_rows)
+    force += row.pressure * row.weight;
+  EXPECT_NEAR(force / si.patch.force, 1, 1e-13);
+}
+
+TEST(Units, GiveTheSameSceneAtEverySpeed) {
+  for (const double omega_b : {0., 0.5, 1.}) {
+    const Result si = solve(cylinder(true, omega_b), {assignment("Road/Distance", 0.8 * b)}),
+                 one = solve(cylinder(false, omega_b), {"Road/Distance=0.8"});
+    expect_same(si, one);
+    EXPECT_NEAR(si.errors->energy_norm / std::sqrt(force_unit * b), one.errors->energy_norm, 1e-10);
+    EXPECT_NEAR(si.errors->l2_norm / b / b, one.errors->l2_norm, 1e-12);
+    EXPECT_NEAR(si.errors->pressure / mu / std::sqrt(b), one.errors->pressure, 1e-10);
+  }
+}
+
+TEST(Units, HoldForAForceThatIsAnExpression) {
+  const std::string f = "0.3 + 0.5*r*cos(z)";
+  const std::string in_si = digits(mu / b) + " * (0.3 + 0.5*(r/" + digits(b) + ")*cos(z))";
+  expect_same(solve(cylinder(true, 0.5),
+                    {assignment("Road/Distance", 0.8 * b), "Cylinder/Radial force=" + in_si}),
+              solve(cylinder(false, 0.5), {"Road/Distance=0.8", "Cylinder/Radial force=" + f}));
+}
+
+TEST(Units, HoldForALoadOnADrum) {
+  expect_same(solve(cylinder(true, 0.5), {assignment("Road/Load", 0.3 * force_unit),
+                                          assignment("Road/Curvature", 0.5 / b)}),
+              solve(cylinder(false, 0.5), {"Road/Load=0.3", "Road/Curvature=0.5"}));
+}
+
+TEST(Units, HoldForUzawasStepLength) {
+  const auto with_rho = [&](double rho, double distance) {
+    return std::vector<std::string>{"Contact/Method=uzawa", assignment("Contact/Rho", rho),
+                                    assignment("Road/Distance", distance)};
+  };
+  const Result si = solve(cylinder(true, 0.5), with_rho(2 * mu / b, 0.8 * b)),
+               one = solve(cylinder(false, 0.5), with_rho(2, 0.8));
+  EXPECT_EQ(si.history.size(), one.history.size());
+  EXPECT_NEAR(si.rho / (mu / b), 2, 1e-14);
+  EXPECT_NEAR(si.patch.force / force_unit / one.patch.force, 1, 1e-12);
+}
+
+TEST(Units, HoldForTheRowsOfAStudy) {
+  const auto rows = [](bool is_si) {
+    auto settings = cylinder(is_si, 0.5);
+    const double unit = is_si ? b : 1;
+    settings.push_back("Study/Vary=Road/Distance = " + digits(0.9 * unit) + " | " +
+                       digits(0.7 * unit));
+    const Parameters parameters = parameters_of(settings);
+    const std::filesystem::path directory = own_path();
+    std::filesystem::remove_all(directory);
+    std::ostringstream out;
+    Study study = plan_study(parameters);
+    run_study(study, parameters, directory, out);
+    std::filesystem::remove_all(directory);
+    return study;
+  };
+  const Study si = rows(true), one = rows(false);
+  for (unsigned int run = 0; run < 2; ++run)
+    for (const auto& [name, unit] : {std::pair("vertical_load", force_unit),
+                                     {"stiffness_vertical_load", mu * width},
+                                     {"peak_pressure", mu},
+                                     {"energy_upper_bound", force_unit * b},
+                                     {"patches", 1.}})
+      EXPECT_NEAR(*si.figure(run, name) / unit / *one.figure(run, name), 1, 1e-12) << name;
+  EXPECT_NE(study_csv(si).find("vertical_load [N]"), std::string::npos);
+}
+
+TEST(Units, NameTheCriticalSpeedThatIsExceeded) {
+  const std::string distance = assignment("Road/Distance", 0.8 * b);
+  auto settings = cylinder(true, 1);
+  settings.push_back(distance);
+  EXPECT_NO_THROW(make_scene(parameters_of(settings)));
+  settings = cylinder(true, 1.0000001);
+  settings.push_back(distance);
+  try {
+    make_scene(parameters_of(settings));
+    FAIL();
+  } catch (const BadValue& refused) {
+    EXPECT_EQ(refused.key, "Angular velocity");
+    std::ostringstream critical;
+    critical.precision(9);
+    critical << wave_speed / b;
+    EXPECT_NE(refused.wanted.find(critical.str().substr(0, 9)), std::string::npos)
+        << refused.wanted;
+  }
+}
+
+TEST(Units, StandBehindTheNumbersOnTheScreen) {
+  auto settings = cylinder(true, 0.5);
+  settings.push_back(assignment("Road/Distance", 0.8 * b));
+  const Parameters parameters = parameters_of(settings);
+  const Scene scene = make_scene(parameters);
+  std::ostringstream screen;
+  report_scene(screen, scene, parameters);
+  report_result(screen, solve(settings, {}), scene.units);
+  for (const char* const part :
+       {"b = 0.035 m", "(0.5 of the critical speed)", " rad/s", "peak pressure            21",
+        " N/m^2\n", " N/m (vertical)", " N m,", "(N m)^(1/2)"})
+    EXPECT_NE(screen.str().find(part), std::string::npos) << part << '\n' << screen.str();
+}
+
+TEST(Units, AreRefusedUnlessPositiveAndFinite) {
+  for (const char* const key : {"Shear modulus", "Density", "Width"})
+    for (const char* const value : {"0", "-1", "inf", "nan", "1e31"})
+      EXPECT_THROW(parameters_of({std::string("Material/") + key + '=' + value}), BadInput);
+  for (const char* const names : {"m", "m, s", "m, s, N, K", "m, , N", "m, s, <N>"})
+    EXPECT_THROW(parameters_of({std::string("Output/Unit names=") + names}), BadInput);
+}
+
+} // namespace
