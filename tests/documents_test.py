@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
-"""The documents keep their promises: links and named files exist, sentences and pages are short, and
-doc/parameters.md is what the program prints.
+"""The documents keep their promises: links and named files exist, commands of README and manual run,
+tables are those of doc/results, sentences and pages are short, and doc/parameters.md is what the
+program prints.
 
 Usage: documents_test.py ROOT ROLLWAVE [--write]      (--write renews doc/parameters.md)
 """
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
+import tempfile
 
-root, rollwave = pathlib.Path(sys.argv[1]), sys.argv[2]
+root, rollwave = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
 doc = root / 'doc'
 readme, parameters = root / 'README.md', doc / 'parameters.md'
 faults = []
@@ -82,6 +85,23 @@ for file in sorted((root / 'prm').rglob('*.prm')):
     name = file.relative_to(root).as_posix()
     require(any(name in page.read_text() for page in cookbook), f'no page of the cookbook has {name}')
     require(file.read_text().startswith('#'), f'{name} does not begin with a comment')
+
+for page in (readme, *own):
+    measured = r'<!-- measured: (\w+) -->\n(.*?)\n<!-- end -->'
+    for name, table in re.findall(measured, page.read_text(), re.S):
+        results = doc / f'results/{name}.md'
+        require(results.exists() and table in results.read_text(),
+                f'{page.name}: its table is not that of {results.name}; renew it by tests/measure.py')
+
+with tempfile.TemporaryDirectory() as place:
+    (pathlib.Path(place) / 'prm').symlink_to(root / 'prm')
+    for page in (readme, doc / 'manual.md'):
+        for block in re.findall(r'```sh\n(.*?)```', page.read_text(), re.S):
+            for line in block.replace('\\\n', ' ').splitlines():
+                if line.startswith('build/rollwave'):
+                    command = shlex.quote(rollwave) + line.removeprefix('build/rollwave')
+                    run = subprocess.run(command, shell=True, cwd=place, capture_output=True)
+                    require(run.returncode == 0, f'{page.name}: this fails: {line}')
 
 printed = subprocess.run([rollwave, '--parameters'], capture_output=True, text=True, check=True).stdout
 current = ('# Parameters\n\nEvery key with its default, as the program prints it by\n\n```sh\n'
