@@ -235,4 +235,13 @@ TEST(StudyTable, HasAtMostAHundredColumns) {
   EXPECT_NE(text.str().find("2 of 2 runs"), std::string::npos);
 }
 
+TEST(StudyTable, KeepsTheKeysThatTellRunsApart) {
+  Study study = planned({"Study/Vary=Mesh/Degree = 1 | 2; Mesh/Marking = all | bulk; "
+                         "Mesh/Most unknowns = 204800 | 819200",
+                         "Mesh/Adaptive cycles=1000", "Study/True errors=true"});
+  const std::string header = StudyTable(study).header();
+  for (const char* const title : {"Degree", "Marking", "unknowns", "error", "order", "seconds"})
+    EXPECT_NE(header.find(title), std::string::npos) << title << '\n' << header;
+}
+
 } // namespace

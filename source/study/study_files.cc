@@ -254,12 +254,13 @@ WrittenFiles write_study(const std::filesystem::path& directory, const Parameter
     add("study.pvd", pvd_of(study, directory));
   const bool is_solved = std::any_of(study.runs.begin(), study.runs.end(),
                                      [](const auto& run) { return run && run->is_solved(); });
-  if (parameters.wants(OutputFile::plot) && is_solved)
+  if (parameters.wants(OutputFile::plot) && is_solved) {
     for (const auto& [name, picture] : draw_study(study))
       if (picture.failure.empty())
         add(name, picture.svg);
       else
         written.remarks.push_back(name + " was not drawn: " + picture.failure);
+  }
   return written;
 }
 

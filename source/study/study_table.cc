@@ -86,13 +86,27 @@ StudyTable::StudyTable(const Study& study) : study(study), families(find_familie
                        }});
   add_figure("F" + units.in_brackets(Quantity::force), 14, "force", 9);
   add_figure("seconds", 8, "seconds", 3);
-  // The first keys are left out where all are too many.
+  make_narrower();
+}
+
+/// Leaves out what tells least, until the table fits the screen. The keys, which tell the
+/// runs apart, stay the longest.
+void StudyTable::make_narrower() {
   constexpr unsigned int widest = 100, outcome = 11;
   const auto add_width = [](unsigned int sum, const Column& column) {
     return sum + column.width + 2;
   };
+  for (const char* const title : {"steps", "certified", "published", "seconds", "order"}) {
+    if (std::accumulate(columns.begin(), columns.end(), outcome, add_width) <= widest)
+      return;
+    const bool is_only_error = title == std::string("certified") && !study.has_true_errors;
+    const auto is_it = [&](const Column& column) {
+      return column.title == title && !is_only_error;
+    };
+    columns.erase(std::remove_if(columns.begin(), columns.end(), is_it), columns.end());
+  }
   while (std::accumulate(columns.begin(), columns.end(), outcome, add_width) > widest)
-    columns.erase(columns.begin() + 1);
+    columns.erase(columns.begin() + 1); // the first of very many keys
 }
 
 void StudyTable::add_figure(const std::string& title, unsigned int width, const std::string& figure,

@@ -32,6 +32,7 @@ private:
   };
 
   void add_settings();
+  void make_narrower();
   void add_figure(const std::string& title, unsigned int width, const std::string& figure,
                   int digits);
 
