@@ -79,7 +79,8 @@ void report_earlier_files(std::ostream& out, const OutputDirectory& directory) {
   for (const std::string& name : directory.files_of_earlier_runs())
     names += (names.empty() ? "" : ", ") + name;
   if (!names.empty())
-    out << "Note: of an earlier run are in " << directory.path().string() << ": " << names << '\n';
+    out << "Note: " << directory.path().string()
+        << " still holds files of an earlier run: " << names << '\n';
 }
 
 } // namespace

@@ -74,6 +74,10 @@ std::string first_file(const WrittenFiles& written, const std::string& pattern) 
 
 void report_certificate(std::ostream& out, const Result& result, const Units& units) {
   const CertifiedError& certified = *result.certified;
+  if (!std::isfinite(certified.energy_norm)) {
+    out << "Certified  nothing; the notes say why\n";
+    return;
+  }
   const auto range = [&](const char* what, double lower, double upper, Quantity quantity) {
     out << what << std::setprecision(9) << lower << " to " << upper << units.after(quantity);
   };

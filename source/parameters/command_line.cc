@@ -77,7 +77,7 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
     if (std::none_of(settings.begin(), settings.end(),
                      [](const Setting& setting) { return setting.path() == "Output/Directory"; }))
       settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
-                          "the name of " + printable(line.file.string())});
+                          "default from the name of " + printable(line.file.string())});
   }
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   return settings;

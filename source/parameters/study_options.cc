@@ -32,6 +32,10 @@ std::vector<std::string> values_of(const std::string& text) {
   static const std::regex range(R"(([^:?]+):([^:/]+)([:/])([^:/]+))");
   constexpr unsigned int longest = 200; // regular expressions of the library recurse
   std::smatch parts;
+  if (static const std::regex number(R"([-+.0-9eE ]+:[-+.0-9eE ]+)");
+      text.size() <= longest && std::regex_match(text, number))
+    throw BadInput(in_quotes(text) +
+                   " lacks a part: a range is first : last : step, or first : last / number");
   if (text.size() > longest || !std::regex_match(text, parts, range))
     return {text};
   const double first = to_number(trimmed(parts[1])), last = to_number(trimmed(parts[2]));
@@ -45,8 +49,10 @@ std::vector<std::string> values_of(const std::string& text) {
     n_values = to_count(third, 2, most_runs);
     step = (last - first) / (n_values - 1);
   }
-  if (!(n_values >= 1 && n_values <= most_runs))
-    throw std::invalid_argument(text);
+  if (!(n_values >= 1))
+    throw BadInput(in_quotes(text) + " has no value: its step leads away from the last one");
+  if (n_values > most_runs)
+    throw BadInput(in_quotes(text) + " has more than " + std::to_string(most_runs) + " values");
   std::vector<std::string> values;
   for (unsigned int i = 0; i < n_values; ++i) {
     const double value = first + i * step;
@@ -59,12 +65,12 @@ std::vector<std::string> values_of(const std::string& text) {
 Variation parse_variation(const std::string& text) {
   const auto equals = text.find('=');
   if (equals == std::string::npos)
-    throw std::invalid_argument(text);
+    throw BadInput(in_quotes(text) + " has no values; it must be Section/Key = value | value");
   std::vector<Setting> keys;
   for (const std::string& key : split(text.substr(0, equals), '&'))
     keys.push_back(parse_setting(key + "=", "Study/Vary"));
   if (keys.empty())
-    throw std::invalid_argument(text);
+    throw BadInput(in_quotes(text) + " names no key before its values");
   Variation variation;
   for (const std::string& choice : split(text.substr(equals + 1), '|'))
     for (const std::string& value : keys.size() == 1 ? values_of(choice) : std::vector{choice}) {
@@ -95,12 +101,16 @@ std::vector<Variation> parse_vary(const std::string& text) {
   for (const std::string& part : split(text, ';')) {
     vary.push_back(parse_variation(part));
     n_runs *= vary.back().size();
-    if (vary.back().empty() || n_runs > most_runs)
-      throw std::invalid_argument(text);
+    if (vary.back().empty())
+      throw BadInput(in_quotes(part) + " gives no value");
+    if (n_runs > most_runs)
+      throw BadInput("these are more than " + std::to_string(most_runs) + " runs");
     for (const Setting& setting : vary.back().front()) {
       require_key_of_a_scene(setting, "Study/Vary");
-      if (!keys.insert(setting.path()).second || keys.size() > most_varied_keys)
-        throw std::invalid_argument(text);
+      if (!keys.insert(setting.path()).second)
+        throw BadInput(in_quotes(setting.path()) + " is varied twice");
+      if (keys.size() > most_varied_keys)
+        throw BadInput("these are more than " + std::to_string(most_varied_keys) + " keys");
     }
   }
   return vary;

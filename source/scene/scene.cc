@@ -45,8 +45,8 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
   const std::string formula = material.wave_speed() == 1 ? "1/b" : "(mu/rho)^(1/2)/b";
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
     refuse("Angular velocity", text("beyond ", formula, " = ", critical,
-                                    " the problem is no longer elliptic: the surface moves faster "
-                                    "than the waves"));
+                                    ", which is admitted, the problem is no longer elliptic: the "
+                                    "surface moves faster than the waves"));
 }
 
 void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double c) {

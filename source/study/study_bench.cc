@@ -149,15 +149,13 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
 
 const std::optional<ExactSolution>& StudyBench::exact_solution(const Scene& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<double> key = {
-      scene.inner_radius,
-      scene.outer_radius,
-      scene.angular_velocity,
-      scene.road_distance,
-      scene.road_curvature,
-      scene.zone_begin,
-      scene.zone_end,
-      scene.has_uneven_force() ? infinity : scene.uniform_force.value_or(0)};
+  const std::vector<double> key = {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
+                                   scene.road_distance, scene.road_curvature,
+                                   // An automatic zone leaves the contact free, however wide it is.
+                                   scene.has_given_zone ? scene.zone_begin : infinity,
+                                   scene.has_given_zone ? scene.zone_end : infinity,
+                                   scene.has_uneven_force() ? infinity
+                                                            : scene.uniform_force.value_or(0)};
   const auto [known, is_new] = exact_solutions.try_emplace(key);
   if (is_new)
     known->second = find_exact_solution(scene);

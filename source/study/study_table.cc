@@ -193,7 +193,7 @@ void print_study_notes(std::ostream& out, const Study& study) {
       for (const std::string& remark : made->remarks)
         remarks.emplace_back(run, remark);
       if (!made->shared.empty())
-        shared.emplace_back(run, "its seconds are without what it shares with the run before: " +
+        shared.emplace_back(run, "its seconds leave out what it shares with the run before: " +
                                      made->shared);
       reference = made->reference.empty() ? reference : made->reference;
     }
