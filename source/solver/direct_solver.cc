@@ -3,51 +3,34 @@
 #include "rollwave/scene/scene.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rollwave {
 
 using namespace dealii;
 
-void DirectSolver::number_unknowns(const Scene& scene) {
-  const Work::Phase phase(*work, "ordering");
-  const auto& nodes = space.candidate_nodes();
-  std::vector<double> heights;
-  for (const SurfaceNode& node : nodes)
-    heights.push_back(scene.road(node.angle));
-  std::vector<unsigned int> by_place(nodes.size());
-  std::iota(by_place.begin(), by_place.end(), 0);
-  std::stable_sort(by_place.begin(), by_place.end(),
-                   [&](auto left, auto right) { return heights[left] > heights[right]; });
-  std::vector<types::global_dof_index> last;
-  for (unsigned int place = 0; place < nodes.size(); ++place) {
-    place_of_dof[nodes[by_place[place]].dof] = place;
-    last.push_back(nodes[by_place[place]].dof);
-  }
-  cholesky = std::make_unique<SparseCholesky>(space, std::move(last));
-  cholesky->number_unknowns(space.constraints());
-}
-
 void DirectSolver::factorise(const Scene& scene) {
-  if (!cholesky)
-    number_unknowns(scene);
   angular_velocity.reset(); // until the factor is there
   is_reduced = false;
   schur.reset();
   {
+    const Work::Phase phase(*work, "ordering");
+    cholesky.number_unknowns(space.constraints());
+  }
+  {
     LowerTriplets triplets;
     {
       const Work::Phase phase(*work, "assembly");
-      triplets = cholesky->assemble(space.constraints(), stiffness_products(space, scene));
+      triplets = cholesky.assemble(space.constraints(), stiffness_products(space, scene));
       ++work->stiffness_assemblies;
     }
     const Work::Phase phase(*work, "ordering");
-    cholesky->analyse(triplets, *work);
+    cholesky.analyse(triplets, *work);
   }
   const Work::Phase phase(*work, "factorisation");
-  cholesky->factorise(*work);
-  schur = std::make_unique<DenseSchur>(cholesky->factor().trailing_factor(place_of_dof.size()));
+  cholesky.factorise(*work);
+  schur = std::make_unique<DenseSchur>(
+      cholesky.factor().trailing_factor(space.candidate_nodes().size()));
   angular_velocity = scene.angular_velocity;
 }
 
@@ -55,9 +38,12 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
-  places.clear();
-  for (const SurfaceNode& node : space.contact_nodes())
-    places.push_back(place_of_dof.at(node.dof));
+  const auto& candidates = space.candidate_nodes();
+  first_contact = std::find_if(candidates.begin(), candidates.end(),
+                               [&](const SurfaceNode& node) {
+                                 return node.dof == space.contact_nodes().front().dof;
+                               }) -
+                  candidates.begin();
 
   const Work::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
@@ -68,41 +54,37 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
-    reduced_load = cholesky->factor().forward(cholesky->gather(*load));
+    reduced_load = cholesky.factor().forward(cholesky.gather(*load));
     ++work.forward_substitutions;
     contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
   is_reduced = true;
 }
 
-Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
-  Vector<double> values(schur->size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    values(places[i]) = contact_values(i);
+template <typename Values>
+Values DirectSolver::on_candidates(const Values& contact_values) const {
+  Values values(schur->size());
+  std::copy(contact_values.begin(), contact_values.end(), values.begin() + first_contact);
   return values;
 }
 
-Vector<double> DirectSolver::from_places(const Vector<double>& values) const {
-  Vector<double> contact_values(places.size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    contact_values(i) = values(places[i]);
-  return contact_values;
+Vector<double> DirectSolver::on_contact(const Vector<double>& values) const {
+  const auto first = values.begin() + first_contact;
+  return Vector<double>(first, first + space.contact_nodes().size());
 }
 
 Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {
-  return from_places(schur->solve(to_places(force)));
+  return on_contact(schur->solve(on_candidates(force)));
 }
 
 double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
-  std::vector<bool> is_pinned(schur->size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    is_pinned[places[i]] = pinned[i];
-  Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
-  if (schur->solve(is_pinned, contact_load, displacement, force) > 0)
-    ++work->dense_factorisations;
-  state.displacement = from_places(displacement);
-  state.force = from_places(force);
+  Vector<double> displacement = on_candidates(state.displacement),
+                 force = on_candidates(state.force);
+  work->dense_factorisations +=
+      schur->solve(on_candidates(pinned), contact_load, displacement, force);
+  state.displacement = on_contact(displacement);
+  state.force = on_contact(force);
   return 0;
 }
 
@@ -111,22 +93,20 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.
-  Vector<double> displacement = to_places(state.displacement), force(schur->size());
-  std::vector<bool> is_pinned(schur->size());
-  for (const unsigned int place : places)
-    is_pinned[place] = true;
-  schur->solve(is_pinned, contact_load, displacement, force);
+  Vector<double> displacement = on_candidates(state.displacement), force(schur->size());
+  schur->solve(on_candidates(std::vector<bool>(state.displacement.size(), true)), contact_load,
+               displacement, force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
   const Vector<double> trailing = schur->transposed_multiply(displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
-  FieldVector field = cholesky->scatter(cholesky->factor().backward(std::move(rhs)));
+  FieldVector field = cholesky.scatter(cholesky.factor().backward(std::move(rhs)));
   space.constraints().distribute(field);
   return field;
 }
 
 FieldVector DirectSolver::apply(const FieldVector& field) const {
-  return cholesky->scatter(cholesky->factor().multiply(cholesky->gather(field)));
+  return cholesky.scatter(cholesky.factor().multiply(cholesky.gather(field)));
 }
 
 } // namespace rollwave

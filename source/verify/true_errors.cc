@@ -1,7 +1,7 @@
 #include "rollwave/verify/true_errors.h"
 
 #include "rollwave/exact/exact_field.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>

@@ -8,7 +8,6 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <cstddef>
 #include <vector>
 
 namespace rollwave {
@@ -52,7 +51,7 @@ public:
 
   /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
   const double* on_line(unsigned int cell, unsigned int p) const {
-    return &values[first[cell] + (number ? 0 : p * n_radii[cell])];
+    return &values[cell][number ? 0 : p * n_radii(cell)];
   }
 
   /// The same at the share @p t of the cell's angular interval.
@@ -80,13 +79,16 @@ private:
   void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
   void conclude(const RingSpace& space, const ForceScan& scan, double sum,
                 dealii::Point<2> largest_cell);
+  unsigned int n_radii(unsigned int cell) const {
+    return values[cell].size() / (number ? 1 : angular.size());
+  }
 
   const bool number;
   const dealii::QGauss<1> angular;
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
-  std::vector<double> values;         ///< of a cell: all radii on the first line, then on the next
-  std::vector<std::size_t> first;     ///< of each active cell, among the values
-  std::vector<unsigned int> n_radii;  ///< likewise
+
+  /// G_h of each active cell at all radii on the first line, then on the next.
+  std::vector<std::vector<double>> values;
   std::vector<double> errors_squared; ///< of each active cell; empty for a number
   double delta = 0, width = 0;
 };

@@ -2,9 +2,9 @@
 #define ROLLWAVE_SOLVER_DENSE_SCHUR_H
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
-#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -15,36 +15,31 @@ namespace rollwave {
  *     S u = g - N,   S = L L^T,
  *
  * with the dense lower triangle L given and, for each node, either u_i (pinned) or N_i.
- *
- * The leading block of L is the factor of that of S, and its trailing block that of what remains
- * when the leading nodes are eliminated too. Nodes before the first pinned one therefore need only
- * substitutions, and only the free nodes behind it a factorisation of their own: none when pinned
- * nodes are the last.
  */
 class DenseSchur {
 public:
-  /// @param factor L, m x m; what lies above the diagonal is not used
-  explicit DenseSchur(dealii::FullMatrix<double> factor) : factor(std::move(factor)) {}
+  /// @param factor L, m x m, with zeros above the diagonal
+  explicit DenseSchur(const dealii::FullMatrix<double>& factor);
 
   /// m
-  unsigned int size() const { return factor.m(); }
+  unsigned int size() const { return schur.m(); }
 
   /// Sets u_i of the nodes that are not pinned and N_i of those that are.
-  /// @return how many free nodes needed a factorisation
-  unsigned int solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,
-                     dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
+  /// @return whether this needed a factorisation, as with both kinds of nodes
+  bool solve(const std::vector<bool>& pinned, const dealii::Vector<double>& load,
+             dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
 
   /// S^-1 force
   dealii::Vector<double> solve(dealii::Vector<double> force) const;
 
   /// L y
-  dealii::Vector<double> multiply(dealii::Vector<double> y) const;
+  dealii::Vector<double> multiply(const dealii::Vector<double>& y) const;
 
   /// L^T u
-  dealii::Vector<double> transposed_multiply(dealii::Vector<double> u) const;
+  dealii::Vector<double> transposed_multiply(const dealii::Vector<double>& u) const;
 
 private:
-  dealii::FullMatrix<double> factor;
+  dealii::LAPACKFullMatrix<double> factor, schur;
 };
 
 } // namespace rollwave
