@@ -12,7 +12,8 @@ using namespace dealii;
 void DirectSolver::factorise(const Scene& scene) {
   angular_velocity.reset(); // until the factor is there
   is_reduced = false;
-  schur.reset();
+  factor.reinit(0);
+  schur.reinit(0);
   {
     const Work::Phase phase(*work, "ordering");
     cholesky.number_unknowns(space.constraints());
@@ -29,8 +30,12 @@ void DirectSolver::factorise(const Scene& scene) {
   }
   const Work::Phase phase(*work, "factorisation");
   cholesky.factorise(*work);
-  schur = std::make_unique<DenseSchur>(
-      cholesky.factor().trailing_factor(space.candidate_nodes().size()));
+  const unsigned int m = space.candidate_nodes().size();
+  factor.reinit(m);
+  factor = cholesky.factor().trailing_factor(m);
+  schur.reinit(m);
+  factor.mTmult(schur, factor);
+  factor.set_property(LAPACKSupport::lower_triangular);
   angular_velocity = scene.angular_velocity;
 }
 
@@ -50,20 +55,20 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
   this->load = load;
-  const unsigned int m = schur->size();
+  const unsigned int m = schur.m();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
     reduced_load = cholesky.factor().forward(cholesky.gather(*load));
     ++work.forward_substitutions;
-    contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
+    factor.vmult(contact_load, Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
   is_reduced = true;
 }
 
 template <typename Values>
 Values DirectSolver::on_candidates(const Values& contact_values) const {
-  Values values(schur->size());
+  Values values(schur.m());
   std::copy(contact_values.begin(), contact_values.end(), values.begin() + first_contact);
   return values;
 }
@@ -74,15 +79,61 @@ Vector<double> DirectSolver::on_contact(const Vector<double>& values) const {
 }
 
 Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {
-  return on_contact(schur->solve(on_candidates(force)));
+  Vector<double> displacement = on_candidates(force);
+  divide_by_schur(displacement);
+  return on_contact(displacement);
+}
+
+void DirectSolver::divide_by_schur(Vector<double>& force) const {
+  factor.solve(force);
+  factor.solve(force, /*transposed=*/true);
+}
+
+/// Sets u_i of the candidates that are not pinned and N_i of those that are.
+/// @return whether this needed a factorisation, as with both kinds of them
+bool DirectSolver::solve_dense(const std::vector<bool>& pinned, Vector<double>& displacement,
+                               Vector<double>& force) const {
+  std::vector<unsigned int> free;
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (!pinned[i]) {
+      free.push_back(i);
+      displacement(i) = 0;
+    }
+  const auto force_left = [&] { // g - S u
+    Vector<double> left(pinned.size());
+    schur.vmult(left, displacement);
+    left.sadd(-1, contact_load);
+    return left;
+  };
+  const Vector<double> left = force_left();
+  Vector<double> solution(free.size());
+  for (unsigned int k = 0; k < free.size(); ++k)
+    solution(k) = left(free[k]) - force(free[k]);
+  const bool is_mixed = !free.empty() && free.size() < pinned.size();
+  if (is_mixed) {
+    LAPACKFullMatrix<double> block(free.size());
+    for (unsigned int k = 0; k < free.size(); ++k)
+      for (unsigned int l = 0; l < free.size(); ++l)
+        block(k, l) = schur(free[k], free[l]);
+    block.set_property(LAPACKSupport::symmetric);
+    block.compute_cholesky_factorization();
+    block.solve(solution);
+  } else if (!free.empty())
+    divide_by_schur(solution);
+  for (unsigned int k = 0; k < free.size(); ++k)
+    displacement(free[k]) = solution(k);
+  const Vector<double> reactions = force_left();
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (pinned[i])
+      force(i) = reactions(i);
+  return is_mixed;
 }
 
 double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
   Vector<double> displacement = on_candidates(state.displacement),
                  force = on_candidates(state.force);
-  work->dense_factorisations +=
-      schur->solve(on_candidates(pinned), contact_load, displacement, force);
+  work->dense_factorisations += solve_dense(on_candidates(pinned), displacement, force);
   state.displacement = on_contact(displacement);
   state.force = on_contact(force);
   return 0;
@@ -93,11 +144,12 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.
-  Vector<double> displacement = on_candidates(state.displacement), force(schur->size());
-  schur->solve(on_candidates(std::vector<bool>(state.displacement.size(), true)), contact_load,
-               displacement, force);
+  Vector<double> displacement = on_candidates(state.displacement), force(schur.m());
+  solve_dense(on_candidates(std::vector<bool>(state.displacement.size(), true)), displacement,
+              force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
-  const Vector<double> trailing = schur->transposed_multiply(displacement);
+  Vector<double> trailing(schur.m());
+  factor.Tvmult(trailing, displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
   FieldVector field = cholesky.scatter(cholesky.factor().backward(std::move(rhs)));

@@ -2,10 +2,10 @@
 #define ROLLWAVE_SOLVER_DIRECT_SOLVER_H
 
 #include "rollwave/solver/contact_linear_solver.h"
-#include "rollwave/solver/dense_schur.h"
 #include "rollwave/solver/sparse_cholesky.h"
 
-#include <memory>
+#include <deal.II/lac/lapack_full_matrix.h>
+
 #include <optional>
 #include <vector>
 
@@ -33,6 +33,9 @@ public:
 
 private:
   void factorise(const Scene& scene);
+  bool solve_dense(const std::vector<bool>& pinned, dealii::Vector<double>& displacement,
+                   dealii::Vector<double>& force) const;
+  void divide_by_schur(dealii::Vector<double>& force) const;
 
   /// From values on contact nodes to values on candidates, zero elsewhere, and back.
   template <typename Values>
@@ -44,11 +47,12 @@ private:
   unsigned int first_contact = 0;         ///< the place of the first contact node among candidates
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   SparseCholesky cholesky;
-  std::unique_ptr<DenseSchur> schur;
-  std::optional<FieldVector> load;     ///< f; nullopt for f = 0
-  bool is_reduced = false;             ///< whether what follows belongs to it and to the factor
-  std::vector<double> reduced_load;    ///< L^-1 f; empty for f = 0
-  dealii::Vector<double> contact_load; ///< g
+  dealii::LAPACKFullMatrix<double> factor; ///< L_cc
+  dealii::LAPACKFullMatrix<double> schur;  ///< S
+  std::optional<FieldVector> load;         ///< f; nullopt for f = 0
+  bool is_reduced = false;                 ///< whether what follows belongs to it and to the factor
+  std::vector<double> reduced_load;        ///< L^-1 f; empty for f = 0
+  dealii::Vector<double> contact_load;     ///< g
 };
 
 } // namespace rollwave
