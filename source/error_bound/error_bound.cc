@@ -59,13 +59,11 @@ struct Integrals {
   long double bound_squared = 0; ///< of eta^2 without the road's term
   long double norm_squared = 0;
   long double work_of_force = 0;
-  long double work_of_correction = 0;
 
   void add(const Integrals& other, double weight) {
     bound_squared += weight * other.bound_squared;
     norm_squared += weight * other.norm_squared;
     work_of_force += weight * other.work_of_force;
-    work_of_correction += weight * other.work_of_correction;
   }
 };
 
@@ -76,9 +74,10 @@ public:
                 RadialShapesOfMesh& shapes)
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
-        beta(AngularEnrichment::mode(n - 1).primitive()), rule(angular_rule(scene, n - 1)),
-        along_road(n + 5), dofs(space.dof_handler()), u(n * n), psi(n * n), line_u(n), line_u_z(n),
-        line_psi(n), line_psi_z(n) {
+        beta(AngularEnrichment::mode(n - 1).primitive()),
+        rule(fields.force ? fields.force->rule() : QGauss<1>(n + 1)), along_road(n + 5),
+        dofs(space.dof_handler()), u(n * n), psi(n * n), line_u(n), line_u_z(n), line_psi(n),
+        line_psi_z(n) {
     for (const auto& point : rule.get_points())
       lines.emplace_back(lagrange, beta, point[0]);
   }
@@ -163,7 +162,6 @@ private:
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
       sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
       sums.work_of_force += weight * moment * v_r;
-      sums.work_of_correction += weight * moment * correction_r;
     }
     return sums;
   }
@@ -205,8 +203,7 @@ std::pair<Integrals, std::vector<double>> integrate(const RingSpace& space, cons
     cell_bounds[number] = std::sqrt(std::max(double(of_cell.bound_squared), 0.) + force_data);
     total.add(of_cell, 1);
   }
-  for (long double* const sum :
-       {&total.bound_squared, &total.norm_squared, &total.work_of_force, &total.work_of_correction})
+  for (long double* const sum : {&total.bound_squared, &total.norm_squared, &total.work_of_force})
     *sum = Utilities::MPI::sum(*sum, space.communicator());
   return {total, std::move(cell_bounds)};
 }
@@ -244,8 +241,7 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, const std::optional<FieldVector>& load,
-                    StressFunction& stress_function, Work& work) {
+                    const ForceIntegral* force, StressFunction& stress_function, Work& work) {
   const Work::Phase phase(work, "certificate");
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const AdmissibleTrace trace(space, scene, displacement, contact.active);
@@ -256,14 +252,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const AngularEnrichment bubbles(space, scene, shapes, potential, pressures, uneven);
   auto [integrals, cell_bounds] =
       integrate(space, scene, {displacement, trace, pressures, potential, bubbles, force}, shapes);
-  double work_of_projection = 0; // on the contact nodes
-  if (load) {
-    FieldVector projection = displacement;
-    projection -= field;
-    work_of_projection = projection * *load;
-  }
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
-          double(integrals.work_of_correction) + work_of_projection};
+          double(integrals.work_of_force)};
 }
 
 } // namespace rollwave

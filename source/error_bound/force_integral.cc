@@ -21,10 +21,6 @@ namespace rollwave {
 
 using namespace dealii;
 
-QGauss<1> angular_rule(const Scene& scene, unsigned int degree) {
-  return QGauss<1>(degree + (scene.has_uneven_force() ? 3 : 2));
-}
-
 namespace {
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().
@@ -62,7 +58,7 @@ double missed_between_points(const RadialShapes& radial, const double* line) {
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
     : number(scene.uniform_force.has_value()),
-      angular(angular_rule(scene, space.dof_handler().get_fe().degree)),
+      angular(space.dof_handler().get_fe().degree + (number ? 2 : 3)),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (number)

@@ -14,18 +14,14 @@ namespace rollwave {
 
 struct Scene;
 
-/// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
-/// degree + 2 points or, for a force that is an expression, one more, G_h being of a higher degree.
-dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
-
 /**
  * All that load and error bound know of a force f, its integral from the surface inwards,
  *
  *     G(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int G w_r dr dz   for w = 0 on r = a,
  *
  * in place of which they take a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For
- * an expression G_h is, on each cell, the polynomial that equals G at the points of angular_rule()
- * along z and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
+ * an expression G_h is, on each cell, the polynomial that equals G at the points of rule() along z
+ * and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
  * whole mesh, on each line z = const of its own.
  *
  * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
@@ -43,7 +39,8 @@ public:
   /// @throws BadInput where f is not finite, on all processes of the space
   ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
 
-  /// angular_rule() of the scene.
+  /// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
+  /// degree + 2 points or, for an expression, one more, G_h being of a higher degree.
   const dealii::QGauss<1>& rule() const { return angular; }
 
   /// Whether G is a function of r alone, which does no work on periodic potentials.
