@@ -147,7 +147,8 @@ TEST(Uzawa, AgreesWithTheActiveSetToItsTolerance) {
       const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
       for (const double tolerance : {1e-4, 1e-8, 1e-11}) {
         const ContactSolution solution =
-            uzawa(scene.solver, scene.problem, {std::nullopt, UzawaStop::gap, tolerance, 100000});
+            uzawa(scene.solver, scene.problem,
+                  {ContactMethod::uzawa, std::nullopt, UzawaStop::gap, tolerance, 100000});
         Vector<double> difference = solution.state.displacement;
         difference -= exact.state.displacement;
         EXPECT_LE(difference.l2_norm(), tolerance * exact.state.displacement.l2_norm())
@@ -182,11 +183,12 @@ TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
                       {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=90"}));
   const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
   const double largest = 2 / largest_compliance(scene.solver, scene.problem, exact.active);
-  EXPECT_NO_THROW(
-      uzawa(scene.solver, scene.problem, {0.97 * largest, UzawaStop::gap, 1e-6, 100000}));
+  EXPECT_NO_THROW(uzawa(scene.solver, scene.problem,
+                        {ContactMethod::uzawa, 0.97 * largest, UzawaStop::gap, 1e-6, 100000}));
   for (const double factor : {1.03, 1.5, 10.})
     try {
-      uzawa(scene.solver, scene.problem, {factor * largest, UzawaStop::gap, 1e-6, 100000});
+      uzawa(scene.solver, scene.problem,
+            {ContactMethod::uzawa, factor * largest, UzawaStop::gap, 1e-6, 100000});
       FAIL() << "rho is " << factor << " times the largest that can converge";
     } catch (const NotSolved& failure) {
       std::ostringstream number;
@@ -200,7 +202,9 @@ TEST(Uzawa, GivesUpAfterItsSteps) {
   Prepared scene(with(paper_scenes()[0].parameters(), {"Mesh/Angular cells=40"}));
   // The last is so small that squares of its steps vanish.
   for (const double rho : {0.01, 1e-300})
-    EXPECT_THROW(uzawa(scene.solver, scene.problem, {rho, UzawaStop::gap, 1e-10, 30}), NotSolved);
+    EXPECT_THROW(
+        uzawa(scene.solver, scene.problem, {ContactMethod::uzawa, rho, UzawaStop::gap, 1e-10, 30}),
+        NotSolved);
 }
 
 TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {
@@ -215,9 +219,9 @@ TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {
                         {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=180"}));
     std::vector<unsigned int> counts;
     for (unsigned int i = 0; i < rhos.size() && (i == 2 || published[figure][i] > 0); ++i) {
-      counts.push_back(
-          uzawa(scene.solver, scene.problem, {rhos[i], UzawaStop::change, 2.5e-4, 1000})
-              .history.size());
+      counts.push_back(uzawa(scene.solver, scene.problem,
+                             {ContactMethod::uzawa, rhos[i], UzawaStop::change, 2.5e-4, 1000})
+                           .history.size());
       if (published[figure][i] > 0) {
         EXPECT_NEAR(counts.back(), published[figure][i], 5) << "rho = " << rhos[i];
       }

@@ -50,12 +50,6 @@ TEST(LeaveOut, NoContactLoopWhenTheFreeSolutionIsFeasible) {
   EXPECT_EQ(result.work.dense_factorisations, 0u);
 }
 
-TEST(LeaveOut, NoDenseFactorisationWhereContactIsOneStretch) {
-  // The nodes that come last in the factor are the pinned ones.
-  const Work work = work_of({"Road/Distance=0.8"});
-  EXPECT_EQ(work.dense_factorisations, 0u);
-}
-
 TEST(LeaveOut, CertificateAndIndicatorAreForThoseWhoAsk) {
   const Work plain = work_of({"Certificate/Error bound=false"});
   EXPECT_FALSE(has_phase(plain, "certificate"));

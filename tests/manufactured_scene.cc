@@ -45,7 +45,8 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
   double norm_squared = 0;
   for (unsigned int k = 0; k < n_modes; ++k) {
     const double compliance = modes.compliance(k);
-    const double even = pressure.cosine_integral(k), odd = pressure.sine_integral(k);
+    const double even = pressure.fourier_integral(k).real(),
+                 odd = pressure.fourier_integral(k).imag();
     const double both_signs = k == 0 ? 1 : 2;
     cosine[k] = -both_signs * compliance * even / (2 * PI);
     sine[k] = -both_signs * compliance * odd / (2 * PI);
@@ -65,7 +66,7 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
   made.exact.end_exponent = end_exponent;
   made.exact.ends_resolved = true;
   made.exact.pressure = pressure;
-  made.exact.force = outer_radius * pressure.cosine_integral(0);
+  made.exact.force = outer_radius * pressure.fourier_integral(0).real();
   made.exact.norm_squared = norm_squared;
   made.exact.energy = norm_squared / 2;
   made.scene = {inner_radius,

@@ -1,7 +1,7 @@
 #include "rollwave/adapt/residual_indicator.h"
 
 #include "rollwave/adapt/cell_field.h"
-#include "rollwave/mesh/lexicographic_dofs.h"
+#include "rollwave/mesh/ring_space.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -161,20 +161,6 @@ SideValues ResidualTerms::flux(const CellField& u, unsigned int f, double begin,
       result[q] = r * scene.alpha(r) / u.size[1] * u.sum(shapes.value[q], across);
     }
   return result;
-}
-
-/// The active cells beyond a face, over the seam as well: none, one or two.
-std::vector<SpaceCell> neighbours(const SpaceCell& cell, unsigned int f) {
-  const bool is_at_seam = f >= 2 && cell->at_boundary(f);
-  if (cell->at_boundary(f) && !is_at_seam)
-    return {};
-  if (!cell->neighbor_or_periodic_neighbor(f)->has_children())
-    return {cell->neighbor_or_periodic_neighbor(f)};
-  const auto child = [&](unsigned int number) -> SpaceCell {
-    return is_at_seam ? cell->periodic_neighbor_child_on_subface(f, number)
-                      : cell->neighbor_child_on_subface(f, number);
-  };
-  return {child(0), child(1)};
 }
 
 /// The jumps of the fluxes over the faces, half of each.

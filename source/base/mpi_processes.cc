@@ -93,16 +93,14 @@ unsigned int process_number(MPI_Comm communicator) {
 }
 
 std::string share_text(MPI_Comm communicator, const std::string& text) {
-  return is_alone(communicator) ? text : Utilities::MPI::broadcast(communicator, text);
+  return Utilities::MPI::all_gather(communicator, text).front();
 }
 
 std::string first_text(MPI_Comm communicator, const std::string& text) {
-  if (is_alone(communicator))
-    return text;
-  const unsigned int none = count_processes(communicator);
-  const unsigned int first =
-      Utilities::MPI::min(text.empty() ? none : process_number(communicator), communicator);
-  return first < none ? Utilities::MPI::broadcast(communicator, text, first) : std::string();
+  for (const std::string& of_one : Utilities::MPI::all_gather(communicator, text))
+    if (!of_one.empty())
+      return of_one;
+  return {};
 }
 
 } // namespace rollwave

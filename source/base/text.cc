@@ -1,9 +1,12 @@
 #include "rollwave/base/text.h"
 
+#include <boost/algorithm/string.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <locale>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -34,30 +37,21 @@ std::string in_quotes(const std::string& text) {
 }
 
 std::string trimmed(const std::string& text) {
-  const char* const white = " \t\r\n\v\f";
-  const auto first = text.find_first_not_of(white);
-  return first == std::string::npos ? std::string()
-                                    : text.substr(first, text.find_last_not_of(white) - first + 1);
+  return boost::algorithm::trim_copy(text, std::locale::classic());
 }
 
 bool is_equal_but_for_case(const std::string& one, const std::string& other) {
-  return std::equal(
-      one.begin(), one.end(), other.begin(), other.end(),
-      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+  return boost::algorithm::iequals(one, other, std::locale::classic());
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   if (trimmed(text).empty())
     return parts;
-  std::size_t begin = 0;
-  for (;;) {
-    const auto end = text.find(separator, begin);
-    parts.push_back(trimmed(text.substr(begin, end - begin)));
-    if (end == std::string::npos)
-      return parts;
-    begin = end + 1;
-  }
+  boost::algorithm::split(parts, text, [=](char c) { return c == separator; });
+  for (std::string& part : parts)
+    part = trimmed(part);
+  return parts;
 }
 
 namespace {

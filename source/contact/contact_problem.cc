@@ -38,8 +38,7 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
 ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
                               const ContactOptions& options, const dealii::Vector<double>& start) {
   if (options.method == ContactMethod::uzawa)
-    return uzawa(solver, problem,
-                 {options.rho, options.stop, options.tolerance, options.most_steps}, start);
+    return uzawa(solver, problem, options, start);
   return active_set(solver, problem, options.most_steps, start);
 }
 

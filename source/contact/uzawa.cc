@@ -15,43 +15,33 @@ using namespace dealii;
 
 namespace {
 
-/// Two bounds of rho: below the first the method converges from anywhere; above the second the
-/// solution itself repels, so that it cannot converge.
-struct RhoBounds {
-  double safe;
-  double largest;
-};
-
-RhoBounds rho_bounds(ContactLinearSolver& solver, const ContactProblem& problem,
-                     const UzawaSettings& settings) {
-  const ContactSolution exact = active_set(solver, problem, settings.most_steps);
-  return {2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
-          2 / largest_compliance(solver, problem, exact.active)};
-}
-
-std::string interruption_text(const UzawaSettings& settings,
+std::string interruption_text(const ContactOptions& options,
                               const std::vector<ContactStep>& history) {
   std::ostringstream text;
   text << "interrupted after " << history.size() << (history.size() == 1 ? " step" : " steps")
        << " of Uzawa's method: the residual is " << history.back().residual << ", wanted "
-       << settings.tolerance;
+       << options.tolerance;
   return text.str();
 }
 
 [[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
-                          const UzawaSettings& settings, double rho, std::size_t steps,
+                          const ContactOptions& options, double rho, std::size_t steps,
                           double reached) {
-  const RhoBounds bounds = rho_bounds(solver, problem, settings);
+  // Below the first of these the method converges from anywhere; above the second the solution
+  // itself repels, so that it cannot converge.
+  const ContactSolution exact = active_set(solver, problem, options.most_steps);
+  const double safe =
+                   2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
+               largest = 2 / largest_compliance(solver, problem, exact.active);
   std::ostringstream message;
-  message << "Uzawa's method " << (rho < bounds.safe ? "stagnates" : "diverges")
+  message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
           << " with rho = " << rho / problem.unit << ": in " << steps
-          << " steps its residual fell to " << reached << ", wanted " << settings.tolerance << "; ";
-  if (rho < bounds.safe)
+          << " steps its residual fell to " << reached << ", wanted " << options.tolerance << "; ";
+  if (rho < safe)
     message << "raise Contact/Tolerance above round-off";
   else
-    message << "lower Contact/Rho: the largest rho that can converge is "
-            << bounds.largest / problem.unit << ", and every rho below "
-            << bounds.safe / problem.unit << " does";
+    message << "lower Contact/Rho: the largest rho that can converge is " << largest / problem.unit
+            << ", and every rho below " << safe / problem.unit << " does";
   throw NotSolved(message.str());
 }
 
@@ -87,11 +77,11 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
 }
 
 ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
-                      const UzawaSettings& settings, const Vector<double>& start) {
+                      const ContactOptions& options, const Vector<double>& start) {
   const unsigned int n = problem.size();
   const std::vector<bool> none(n, false);
-  const double rho = settings.rho
-                         ? *settings.rho * problem.unit
+  const double rho = options.rho
+                         ? *options.rho * problem.unit
                          : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
 
   ContactSolution solution;
@@ -111,7 +101,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
 
   double smallest = std::numeric_limits<double>::max();
   unsigned int steps_without_progress = 0;
-  while (solution.history.size() < settings.most_steps) {
+  while (solution.history.size() < options.most_steps) {
     ContactStep step = {};
     double violation_squared = 0;
     for (unsigned int i = 0; i < n; ++i) {
@@ -131,13 +121,13 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
 
     const double size = displacement.l2_norm();
     const double violation = std::sqrt(violation_squared);
-    const double measured = settings.stop == UzawaStop::gap ? violation : change.l2_norm();
+    const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
     // A scene without contact is solved when the first projection leaves p at zero.
-    const bool is_converged = measured <= settings.tolerance * size;
+    const bool is_converged = measured <= options.tolerance * size;
     if (!is_converged && is_interrupted(problem.communicator))
-      solution.shortfall = interruption_text(settings, solution.history);
+      solution.shortfall = interruption_text(options, solution.history);
     if (is_converged || solution.shortfall) {
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);
@@ -151,13 +141,13 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
       smallest = step.residual;
       steps_without_progress = 0;
     } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
-      give_up(solver, problem, settings, rho, solution.history.size(), smallest);
+      give_up(solver, problem, options, rho, solution.history.size(), smallest);
   }
   std::ostringstream message;
-  message << "Uzawa's method has not reached the tolerance " << settings.tolerance << " after "
-          << settings.most_steps << " steps with rho = " << rho / problem.unit
+  message << "Uzawa's method has not reached the tolerance " << options.tolerance << " after "
+          << options.most_steps << " steps with rho = " << rho / problem.unit
           << ": the residual is " << solution.history.back().residual
-          << "; raise Contact/Most steps" << (settings.rho ? ", or let Contact/Rho be auto" : "");
+          << "; raise Contact/Most steps" << (options.rho ? ", or let Contact/Rho be auto" : "");
   throw NotSolved(message.str());
 }
 

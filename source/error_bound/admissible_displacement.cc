@@ -1,6 +1,6 @@
 #include "rollwave/error_bound/admissible_displacement.h"
 
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <boost/math/tools/roots.hpp>
@@ -63,7 +63,7 @@ AdmissibleTrace::AdmissibleTrace(const RingSpace& space, const Scene& scene,
     else if (zone_begin < zone_end)
       find_pieces(edge, zone_begin, zone_end);
     else
-      edge.pieces = {{Piece::Kind::free, 0, 1}};
+      edge.pieces = {{Piece::Kind::outside, 0, 1}};
     edges.push_back(std::move(edge));
   }
 }
@@ -103,11 +103,12 @@ void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end
 
   if (zone_begin > 0)
     edge.pieces.push_back(
-        {Piece::Kind::ramp, 0, zone_begin, 0, -std::max(0., excess_at(zone_begin))});
+        {Piece::Kind::outside, 0, zone_begin, 0, -std::max(0., excess_at(zone_begin))});
   for (unsigned int i = 0; i + 1 < ends.size(); ++i)
     edge.pieces.push_back({Piece::Kind::limited, ends[i], ends[i + 1]});
   if (zone_end < 1)
-    edge.pieces.push_back({Piece::Kind::ramp, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
+    edge.pieces.push_back(
+        {Piece::Kind::outside, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
 }
 
 AdmissibleTrace::ValueAndSlope AdmissibleTrace::excess(const Edge& edge, double t) const {
@@ -125,9 +126,7 @@ AdmissibleTrace::ValueAndSlope AdmissibleTrace::excess(const Edge& edge, double 
 AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int face, const Piece& piece,
                                                         double t) const {
   const Edge& edge = edges[face];
-  if (piece.kind == Piece::Kind::free)
-    return {0, 0, 0};
-  if (piece.kind == Piece::Kind::ramp) {
+  if (piece.kind == Piece::Kind::outside) {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
     return {piece.value_begin + slope * (t - piece.t_begin), slope / (edge.end - edge.begin), 0};
   }

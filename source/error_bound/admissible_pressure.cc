@@ -19,39 +19,20 @@ bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
   return scene.is_in_zone(face.begin) && scene.is_in_zone(face.end);
 }
 
-/// Nodal force over the node's share of the edges that lie in the zone.
-class DiscretePressure {
-public:
-  DiscretePressure(const RingSpace& space, const Scene& scene, const ContactSolution& contact)
-      : space(space), contact(contact), shares(space.contact_nodes().size()) {
-    const QGaussLobatto<1> lobatto(space.dof_handler().get_fe().degree + 1);
-    for (const SurfaceFace& face : space.surface_faces())
-      if (is_in_zone(face, scene))
-        for (unsigned int k = 0; k < face.nodes.size(); ++k)
-          if (const auto node = space.contact_number(face.nodes[k]))
-            shares[*node] += lobatto.weight(k) * space.outer_radius() * (face.end - face.begin);
-  }
-
-  /// At the node @p k of an edge.
-  double operator()(const SurfaceFace& face, unsigned int k) const {
-    const auto node = space.contact_number(face.nodes[k]);
-    return node && shares[*node] > 0 ? std::max(0., contact.state.force(*node) / shares[*node])
-                                     : 0.;
-  }
-
-  /// Whether the edge's only node in contact is the vertex @p k.
-  bool is_only_at(const SurfaceFace& face, unsigned int k) const {
-    for (unsigned int j = 0; j < face.nodes.size(); ++j)
-      if (((*this)(face, j) > 0) != (j == k))
-        return false;
-    return true;
-  }
-
-private:
-  const RingSpace& space;
-  const ContactSolution& contact;
-  std::vector<double> shares;
-};
+/// Nodal force over the node's share of the edges that lie in the zone, for all surface nodes.
+std::vector<double> nodal_pressures(const RingSpace& space, const Scene& scene,
+                                    const ContactSolution& contact) {
+  const QGaussLobatto<1> lobatto(space.dof_handler().get_fe().degree + 1);
+  std::vector<double> shares(space.surface_nodes().size()), pressures(shares.size());
+  for (const SurfaceFace& face : space.surface_faces())
+    if (is_in_zone(face, scene))
+      for (unsigned int k = 0; k < face.nodes.size(); ++k)
+        shares[face.nodes[k]] += lobatto.weight(k) * space.outer_radius() * (face.end - face.begin);
+  for (unsigned int i = 0; i < shares.size(); ++i)
+    if (const auto node = space.contact_number(i); node && shares[i] > 0)
+      pressures[i] = std::max(0., contact.state.force(*node) / shares[i]);
+  return pressures;
+}
 
 /// The power of t, on the edge where contact ends, that pressures of a degree take.
 unsigned int end_power(unsigned int degree) {
@@ -69,7 +50,10 @@ std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Sce
                                                const ContactSolution& contact) {
   const unsigned int degree = space.dof_handler().get_fe().degree, q = end_power(degree);
   const QGaussLobatto<1> lobatto(degree + 1);
-  const DiscretePressure pressure(space, scene, contact);
+  const std::vector<double> pressures = nodal_pressures(space, scene, contact);
+  const auto pressure = [&](const SurfaceFace& face, unsigned int k) {
+    return pressures[face.nodes[k]];
+  };
   const std::vector<SurfaceFace>& faces = space.surface_faces();
 
   std::vector<EdgePressure> edges;
@@ -87,7 +71,10 @@ std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Sce
   const auto shift = [&](unsigned int outside, unsigned int inside, bool contact_lies_before) {
     const SurfaceFace &out = faces[outside], &in = faces[inside];
     const unsigned int end = contact_lies_before ? 0 : degree;
-    if (!(edges[outside].mean > 0) || !(edges[inside].mean > 0) || !pressure.is_only_at(out, end))
+    const auto n_pressed = std::count_if(out.nodes.begin(), out.nodes.end(),
+                                         [&](unsigned int node) { return pressures[node] > 0; });
+    if (!(edges[outside].mean > 0) || !(edges[inside].mean > 0) || n_pressed > 1 ||
+        pressure(out, end) == 0)
       return;
     const double last = pressure(out, end);
     const double before = pressure(in, contact_lies_before ? degree - 1 : 1);

@@ -1,8 +1,7 @@
 #include "rollwave/error_bound/angular_enrichment.h"
 
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/mesh/lexicographic_dofs.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/mpi.h>
@@ -27,7 +26,7 @@ struct AngularEnrichment::Cell {
   double length, r_begin, r_end;
   unsigned int number;      ///< of its n values: that of an own active cell, or behind those
   int edge;                 ///< of RingSpace::surface_faces(), -1 inside
-  bool is_cut;              ///< another process has the next cell of the column
+  bool is_cut;              ///< another process has the next cell, which may be of the column
   std::vector<double> load; ///< on the way to other processes
 
   template <class Archive>
@@ -53,16 +52,6 @@ double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wa
   return nearest;
 }
 
-/// Whether the neighbour of a cell over its face @p f towards the hub or the surface is as long,
-/// and another process has it.
-bool is_cut(const DoFHandler<2>::active_cell_iterator& cell, unsigned int f) {
-  if (cell->at_boundary(f))
-    return false;
-  const auto neighbour = cell->neighbor(f);
-  return neighbour->level() == cell->level() && neighbour->is_active() &&
-         !neighbour->is_locally_owned();
-}
-
 } // namespace
 
 Polynomials::Polynomial<double> AngularEnrichment::mode(unsigned int degree) {
@@ -76,6 +65,10 @@ AngularEnrichment::AngularEnrichment(const RingSpace& space, const Scene& scene,
     : n(space.dof_handler().get_fe().degree + 1),
       values(n * space.dof_handler().get_triangulation().n_active_cells()) {
   assemble_loads(space, scene, shapes, potential, pressures, force);
+  const auto is_foreign = [](const auto& cell, unsigned int face) {
+    const auto beyond = neighbours(cell, face);
+    return !beyond.empty() && !beyond.front()->is_locally_owned();
+  };
   std::vector<Cell> cells;
   for (const auto& cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned()) {
@@ -88,7 +81,7 @@ AngularEnrichment::AngularEnrichment(const RingSpace& space, const Scene& scene,
                        high[0],
                        cell->active_cell_index(),
                        edge ? int(*edge) : -1,
-                       is_cut(cell, 0) || is_cut(cell, 1),
+                       is_foreign(cell, 0) || is_foreign(cell, 1),
                        {}});
     }
   const std::size_t n_own = values.size();

@@ -3,9 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/error_bound/force_scan.h"
-#include "rollwave/mesh/interval_map.h"
-#include "rollwave/mesh/lexicographic_dofs.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/mpi.h>
@@ -23,10 +21,6 @@ namespace rollwave {
 
 using namespace dealii;
 
-QGauss<1> angular_rule(const Scene& scene, unsigned int degree) {
-  return QGauss<1>(degree + (scene.has_uneven_force() ? 3 : 2));
-}
-
 namespace {
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().
@@ -42,43 +36,31 @@ std::vector<double> all_radii(const RingSpace& space) {
   return {all.begin(), all.end()};
 }
 
-/// Tells from the values of G_h on a line what it misses between the points along r.
-class HighestMode {
-public:
-  /// @param gauss the rule on each piece of a radial interval
-  explicit HighestMode(const QGauss<1>& gauss) {
-    const Polynomials::Legendre highest(gauss.size() - 1);
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-      weights.push_back(gauss.weight(q) * highest.value(gauss.point(q)[0]));
-  }
-
-  /// The square of the coefficient of the highest Legendre polynomial, orthonormal on [0, 1], times
-  /// the number of points, integrated over dr / r: about the mean square of what is missing where
-  /// coefficients fall slowly, and more than that where they fall fast.
-  double square(const RadialShapes& radial, const double* line) const {
-    double sum = 0;
-    for (unsigned int piece = 0; piece < radial.r.size(); piece += weights.size()) {
-      double measure = 0, coefficient = 0;
-      for (unsigned int q = 0; q < weights.size(); ++q) {
-        measure += radial.weight_over_r[piece + q];
-        coefficient += weights[q] * line[piece + q];
-      }
-      sum += measure * weights.size() * coefficient * coefficient;
+/// What G_h misses between the points along r, squared and integrated over dr / r: the square of
+/// the coefficient of the highest Legendre polynomial times the number of points. That is about the
+/// mean square of what is missing where coefficients fall slowly, and more than that where they
+/// fall fast.
+double missed_between_points(const RadialShapes& radial, const double* line) {
+  const auto& highest = radial.highest_mode;
+  double sum = 0;
+  for (unsigned int piece = 0; piece < radial.r.size(); piece += highest.size()) {
+    double measure = 0, coefficient = 0;
+    for (unsigned int q = 0; q < highest.size(); ++q) {
+      measure += radial.weight_over_r[piece + q];
+      coefficient += highest[q] * line[piece + q];
     }
-    return sum;
+    sum += measure * highest.size() * coefficient * coefficient;
   }
-
-private:
-  std::vector<double> weights;
-};
+  return sum;
+}
 
 } // namespace
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
     : number(scene.uniform_force.has_value()),
-      angular(angular_rule(scene, space.dof_handler().get_fe().degree)),
+      angular(space.dof_handler().get_fe().degree + (number ? 2 : 3)),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
-      first(space.dof_handler().get_triangulation().n_active_cells()), n_radii(first.size()) {
+      values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (number)
     take_number(space, *scene.uniform_force, shapes);
   else
@@ -90,11 +72,8 @@ void ForceIntegral::take_number(const RingSpace& space, double f, RadialShapesOf
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
-    const std::vector<double>& radii = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]).r;
-    first[cell->active_cell_index()] = values.size();
-    n_radii[cell->active_cell_index()] = radii.size();
-    for (const double r : radii)
-      values.push_back(f * (b - r) * (b + r) / 2);
+    for (const double r : shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]).r)
+      values[cell->active_cell_index()].push_back(f * (b - r) * (b + r) / 2);
   }
 }
 
@@ -111,8 +90,7 @@ void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
     }
   const std::vector<double> all_ends = all_radii(space);
   ForceScan scan(scene, angular);
-  IntervalMap<HighestMode> highest_modes;
-  errors_squared.resize(first.size());
+  errors_squared.resize(values.size());
   double sum = 0;
   for (const auto& [interval, cells] : sectors) {
     double innermost = scene.outer_radius;
@@ -128,18 +106,13 @@ void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
                     radii, interval.first, length);
     std::size_t place = 0; // of a cell's first radius
     for (const Cell& cell : cells) {
-      const double begin = cell->vertex(0)[0], end = cell->vertex(3)[0];
-      const RadialShapes& radial = shapes.on(begin, end);
+      const RadialShapes& radial = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]);
       const unsigned int index = cell->active_cell_index(), n_r = radial.r.size();
-      const HighestMode& between =
-          highest_modes.at(begin, end, [&] { return HighestMode(shapes.gauss(begin, end)); });
-      first[index] = values.size();
-      n_radii[index] = n_r;
       double& square = errors_squared[index];
       for (unsigned int p = 0; p < angular.size(); ++p) {
         const double* const line = &sector.lines[p][place];
-        values.insert(values.end(), line, line + n_r);
-        square += length * angular.weight(p) * between.square(radial, line);
+        values[index].insert(values[index].end(), line, line + n_r);
+        square += length * angular.weight(p) * missed_between_points(radial, line);
       }
       for (unsigned int q = 0; q < n_r; ++q)
         square += length * radial.weight_over_r[q] * std::pow(sector.missed[place + q], 2);
@@ -169,7 +142,7 @@ void ForceIntegral::conclude(const RingSpace& space, const ForceScan& scan, doub
 }
 
 void ForceIntegral::on_line_at(unsigned int cell, double t, std::vector<double>& line) const {
-  line.assign(n_radii[cell], 0.);
+  line.assign(n_radii(cell), 0.);
   for (unsigned int p = 0; p < angular.size(); ++p) {
     const double share = lagrange[p].value(t), *const values_on_line = on_line(cell, p);
     for (unsigned int q = 0; q < line.size(); ++q)

@@ -1,10 +1,11 @@
 #include "rollwave/error_bound/radial_shapes.h"
 
-#include "rollwave/mesh/graded_quadrature.h"
 #include "rollwave/scene/scene.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
 #include <algorithm>
 #include <cmath>
-#include <deal.II/base/quadrature_lib.h>
 
 namespace rollwave {
 
@@ -70,9 +71,13 @@ RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
     : scene(scene), lagrange(lobatto_lagrange(degree)) {}
 
 const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
-  return known.at(begin, end, [&] { return make(begin, end); });
+  const auto [place, is_new] = known.try_emplace({begin, end});
+  if (is_new)
+    place->second = make(begin, end);
+  return place->second;
 }
 
+/// On an interval, or on each of the pieces that it is cut into.
 QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
   // With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose
   // half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths. For polynomials of degree 2 p
@@ -84,7 +89,8 @@ QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
 }
 
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
-  const RadialRule rule = graded_rule(begin, end, gauss(begin, end));
+  const QGauss<1> points = gauss(begin, end);
+  const RadialRule rule = graded_rule(begin, end, points);
   RadialShapes shapes;
   const StressFunctionBasis potential_shapes(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;
@@ -103,6 +109,9 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
       shapes.shapes.push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});
     }
   }
+  const Polynomials::Legendre highest(points.size() - 1);
+  for (unsigned int q = 0; q < points.size(); ++q)
+    shapes.highest_mode.push_back(points.weight(q) * highest.value(points.point(q)[0]));
   shapes.products = {FullMatrix<double>(n), FullMatrix<double>(n)};
   for (unsigned int q = 0; q < n_q; ++q)
     for (unsigned int i = 0; i < n; ++i)

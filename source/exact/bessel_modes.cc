@@ -8,9 +8,10 @@
 #include <boost/math/special_functions/legendre.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace rollwave {
 
@@ -24,11 +25,6 @@ constexpr double negligible_exponent = 21;
 /// Panels of interpolation over k.
 constexpr double first_panel = 64;
 constexpr int n_panels = 16;
-constexpr int n_chebyshev = 24;
-
-double chebyshev_point(int i) {
-  return std::cos(dealii::numbers::PI * i / (n_chebyshev - 1));
-}
 
 /// x J_k'(x) / J_k(x) for 0 <= x <= k, by the continued fraction of J_(k+1)/J_k (W. J. Lentz).
 double logarithmic_derivative(double k, double x) {
@@ -45,23 +41,30 @@ double logarithmic_derivative(double k, double x) {
   return k - x_squared / fraction;
 }
 
+/// Values at Gauss-Legendre points.
+using AtPoints = std::vector<double>;
+
+double sum_of_products(const AtPoints& one, const AtPoints& other) {
+  return std::inner_product(one.begin(), one.end(), other.begin(), 0.);
+}
+
 /// Gauss-Legendre points on [-1, 1] and the matrix of integrals from each point to 1.
 struct SpectralIntegration {
-  std::array<double, n_gauss> point;
-  std::array<double, n_gauss> weight;
-  std::array<std::array<double, n_gauss>, n_gauss> to_the_right;
+  AtPoints point, weight;
+  std::vector<AtPoints> to_the_right;
 
   SpectralIntegration() {
     const dealii::QGauss<1> gauss(n_gauss);
     for (int i = 0; i < n_gauss; ++i) {
-      point[i] = 2 * gauss.point(i)[0] - 1;
-      weight[i] = 2 * gauss.weight(i);
+      point.push_back(2 * gauss.point(i)[0] - 1);
+      weight.push_back(2 * gauss.weight(i));
     }
     // The Lagrange polynomial of point j is weight_j sum_m (m + 1/2) P_m(x_j) P_m, and
     // (2 m + 1) int_x^1 P_m = P_(m-1)(x) - P_(m+1)(x), with P_(-1) = 1.
     const auto legendre = [](int m, double x) {
       return m < 0 ? 1. : boost::math::legendre_p(m, x);
     };
+    to_the_right.assign(n_gauss, AtPoints(n_gauss));
     for (int i = 0; i < n_gauss; ++i)
       for (int j = 0; j < n_gauss; ++j) {
         double sum = 0;
@@ -69,6 +72,26 @@ struct SpectralIntegration {
           sum += legendre(m, point[j]) * (legendre(m - 1, point[i]) - legendre(m + 1, point[i]));
         to_the_right[i][j] = weight[j] * sum / 2;
       }
+  }
+
+  /// The weights by which values at the points give the polynomial through them at t: barycentric
+  /// interpolation.
+  AtPoints interpolation(double t) const {
+    AtPoints weights(n_gauss);
+    const auto hit = std::find(point.begin(), point.end(), t);
+    if (hit != point.end()) {
+      weights[hit - point.begin()] = 1;
+      return weights;
+    }
+    double sum = 0;
+    for (int i = 0; i < n_gauss; ++i) {
+      weights[i] =
+          (i % 2 ? -1 : 1) * std::sqrt((1 - point[i] * point[i]) * weight[i]) / (t - point[i]);
+      sum += weights[i];
+    }
+    for (double& of_point : weights)
+      of_point /= sum;
+    return weights;
   }
 };
 
@@ -81,7 +104,7 @@ const SpectralIntegration& spectral_integration() {
 
 /// theta and its integral at the points, and the integral of 1/g^2.
 struct BesselModes::Samples {
-  std::array<double, n_gauss> exponent; ///< int_y^(ln b) theta
+  AtPoints exponent; ///< int_y^(ln b) theta
   double theta_at_surface;
   double largest_exponent; ///< from the hub to the surface
   double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
@@ -95,8 +118,8 @@ BesselModes::BesselModes(double inner_radius, double outer_radius, double angula
   for (int panel = 0; panel < n_panels || std::ldexp(first_panel, panel) < hub_fades_at; ++panel) {
     const double begin = std::ldexp(first_panel, panel);
     panels.emplace_back();
-    for (int i = 0; i < n_chebyshev; ++i) {
-      const double k = begin * (1 + (1 + chebyshev_point(i)) / 2);
+    for (const double point : spectral_integration().point) {
+      const double k = begin * (1 + (1 + point) / 2);
       panels.back().push_back(k * computed_compliance(k));
     }
   }
@@ -105,21 +128,16 @@ BesselModes::BesselModes(double inner_radius, double outer_radius, double angula
 BesselModes::Samples BesselModes::sample(double k) const {
   const SpectralIntegration& rule = spectral_integration();
   const double depth = log_of_ratio(b, a);
-  std::array<double, n_gauss> theta;
-  for (int i = 0; i < n_gauss; ++i)
-    theta[i] = logarithmic_derivative(k, k * omega * b * std::exp((rule.point[i] - 1) * depth / 2));
+  AtPoints theta;
+  for (const double point : rule.point)
+    theta.push_back(logarithmic_derivative(k, k * omega * b * std::exp((point - 1) * depth / 2)));
 
   Samples samples;
   samples.theta_at_surface = logarithmic_derivative(k, k * omega * b);
-  samples.largest_exponent = 0;
+  for (const AtPoints& weights : rule.to_the_right)
+    samples.exponent.push_back(sum_of_products(weights, theta) * depth / 2);
+  samples.largest_exponent = sum_of_products(rule.weight, theta) * depth / 2;
   samples.q = 0;
-  for (int i = 0; i < n_gauss; ++i) {
-    double exponent = 0;
-    for (int j = 0; j < n_gauss; ++j)
-      exponent += rule.to_the_right[i][j] * theta[j];
-    samples.exponent[i] = exponent * depth / 2;
-    samples.largest_exponent += rule.weight[i] * theta[i] * depth / 2;
-  }
   if (samples.largest_exponent >= negligible_exponent) {
     samples.q = std::numeric_limits<double>::infinity();
     return samples;
@@ -156,17 +174,7 @@ double BesselModes::compliance(double k) const {
   const double t = 2 * (k - begin) / begin - 1;
   if (t > 1)
     return compliance_without_hub(k);
-  double numerator = 0, denominator = 0;
-  for (int i = 0; i < n_chebyshev; ++i) {
-    const double distance = t - chebyshev_point(i);
-    if (distance == 0)
-      return panels[panel][i] / k;
-    const double weight =
-        (i % 2 ? -1. : 1.) * (i == 0 || i == n_chebyshev - 1 ? 0.5 : 1.) / distance;
-    numerator += weight * panels[panel][i];
-    denominator += weight;
-  }
-  return numerator / denominator / k;
+  return sum_of_products(spectral_integration().interpolation(t), panels[panel]) / k;
 }
 
 BesselModes::Profile BesselModes::profile(double k, const std::vector<double>& radii) const {
@@ -184,34 +192,15 @@ BesselModes::Profile BesselModes::profile(double k, const std::vector<double>& r
   const Samples samples = sample(k);
   const bool has_hub = std::isfinite(samples.q);
   // int_y^(ln b) dy / g^2 at the points
-  std::array<double, n_gauss> q_to_the_right;
-  for (int i = 0; i < n_gauss && has_hub; ++i) {
-    q_to_the_right[i] = 0;
-    for (int j = 0; j < n_gauss; ++j)
-      q_to_the_right[i] += rule.to_the_right[i][j] * depth / 2 * std::exp(2 * samples.exponent[j]);
-  }
+  AtPoints integrand, q_to_the_right(n_gauss);
+  for (int i = 0; i < n_gauss && has_hub; ++i)
+    integrand.push_back(depth / 2 * std::exp(2 * samples.exponent[i]));
+  for (int i = 0; i < n_gauss && has_hub; ++i)
+    q_to_the_right[i] = sum_of_products(rule.to_the_right[i], integrand);
   for (const double r : radii) {
-    // Barycentric interpolation between Gauss-Legendre points.
-    const double t = 1 + 2 * std::log1p((r - b) / b) / depth;
-    double numerator = 0, q_numerator = 0, denominator = 0;
-    for (int i = 0; i < n_gauss; ++i) {
-      const double distance = t - rule.point[i];
-      if (distance == 0) {
-        numerator = samples.exponent[i];
-        q_numerator = has_hub ? q_to_the_right[i] : 0;
-        denominator = 1;
-        break;
-      }
-      const double weight = (i % 2 ? -1 : 1) *
-                            std::sqrt((1 - rule.point[i] * rule.point[i]) * rule.weight[i]) /
-                            distance;
-      numerator += weight * samples.exponent[i];
-      q_numerator += has_hub ? weight * q_to_the_right[i] : 0;
-      denominator += weight;
-    }
-    const double exponent = numerator / denominator;
-    const double share = has_hub ? 1 - q_numerator / denominator / samples.q : 1;
-    const double g = std::exp(-exponent);
+    const AtPoints weights = rule.interpolation(1 + 2 * std::log1p((r - b) / b) / depth);
+    const double share = has_hub ? 1 - sum_of_products(weights, q_to_the_right) / samples.q : 1;
+    const double g = std::exp(-sum_of_products(weights, samples.exponent));
     const double theta = logarithmic_derivative(k, k * omega * r);
     profile.value.push_back(g * share);
     profile.derivative.push_back((theta * g * share + (has_hub ? 1 / (g * samples.q) : 0)) / r);

@@ -5,6 +5,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace rollwave {
 
@@ -14,7 +15,7 @@ ExactField::ExactField(const ExactScene& scene, const ExactSolution& solution, u
     : scene(scene), modes(scene.inner_radius, scene.outer_radius, scene.angular_velocity) {
   for (unsigned int k = 0; k < n_modes; ++k)
     amplitudes.push_back(-(k == 0 ? 1 : 2) * modes.compliance(k) *
-                         solution.pressure.cosine_integral(k) / (2 * numbers::PI));
+                         solution.pressure.fourier_integral(k).real() / (2 * numbers::PI));
 }
 
 ExactField::Value ExactField::operator()(double r, double z) const {
@@ -40,30 +41,22 @@ ExactField::Value ExactField::operator()(double r, double z) const {
 
 std::vector<std::vector<double>>
 ExactField::cosine_coefficients(const std::vector<double>& radii) const {
-  std::vector<std::vector<double>> coefficients(radii.size());
-  for (unsigned int i = 0; i < radii.size(); ++i)
-    coefficients[i].push_back(scene.contact_free_displacement(radii[i]));
-  // Radii at which modes still matter, the outermost last to fade.
-  std::vector<unsigned int> left(radii.size());
-  for (unsigned int i = 0; i < radii.size(); ++i)
-    left[i] = i;
-  for (unsigned int k = 0; k < amplitudes.size() && !left.empty(); ++k) {
-    std::vector<double> own;
-    for (const unsigned int i : left)
-      own.push_back(radii[i]);
-    const BesselModes::Profile profile = modes.profile(k, own);
-    std::vector<unsigned int> next;
-    for (unsigned int j = 0; j < left.size(); ++j) {
-      auto& list = coefficients[left[j]];
+  std::vector<std::vector<double>> coefficients;
+  for (const double r : radii)
+    coefficients.push_back({scene.contact_free_displacement(r)});
+  std::size_t first = 0; // of the radii at which modes still matter
+  for (unsigned int k = 0; k < amplitudes.size() && first < radii.size(); ++k) {
+    const auto profile = modes.profile(k, {radii.begin() + first, radii.end()}).value;
+    for (std::size_t i = first; i < radii.size(); ++i)
       if (k == 0)
-        list[0] += amplitudes[0] * profile.value[j];
+        coefficients[i][0] += amplitudes[0] * profile[i - first];
       else
-        list.push_back(amplitudes[k] * profile.value[j]);
-      if (k * log_of_ratio(radii[left[j]], scene.inner_radius) < 1 ||
-          std::abs(profile.value[j]) > 1e-9)
-        next.push_back(left[j]);
-    }
-    left = std::move(next);
+        coefficients[i].push_back(amplitudes[k] * profile[i - first]);
+    for (const double value : profile)
+      if (k * log_of_ratio(radii[first], scene.inner_radius) >= 1 && std::abs(value) <= 1e-9)
+        ++first;
+      else
+        break;
   }
   return coefficients;
 }

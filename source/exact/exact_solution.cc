@@ -69,8 +69,8 @@ ExactSolution describe(const ExactScene& scene, const PressureCollocation& collo
   solution.pressure = {3 * numbers::PI / 2, w, collocation.nu, coefficients};
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
-  solution.force = b * solution.pressure.cosine_integral(0);
-  solution.vertical_load = b * solution.pressure.cosine_integral(1);
+  solution.force = b * solution.pressure.fourier_integral(0).real();
+  solution.vertical_load = b * solution.pressure.fourier_integral(1).real();
   const Road road = scene.road();
   const auto contact_work = [&](const std::function<double(double)>& function) {
     const Vector<double> moments = collocation.moments(w, function);

@@ -3,7 +3,6 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
-#include <algorithm>
 #include <cfenv>
 #include <cmath>
 
@@ -34,50 +33,19 @@ double bessel_j(double order, double x) {
 } // namespace
 
 std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double x) {
-  std::vector<double> bessel(count);
+  std::vector<double> transforms(count);
   if (x == 0) {
     // x^-nu J_(n+nu)(x) vanishes at x = 0 but for n = 0.
-    std::vector<double> transforms(count, 0.);
     transforms[0] = std::pow(2., -nu) / boost::math::tgamma(nu + 1);
     return transforms;
   }
-  // The recurrence of Bessel functions is stable upwards below the order x, downwards above.
-  const unsigned int last = count - 1;
-  if (x >= last + nu) {
-    bessel[0] = bessel_j(nu, x);
-    if (count > 1)
-      bessel[1] = bessel_j(nu + 1, x);
-    for (unsigned int n = 1; n + 1 < count; ++n)
-      bessel[n + 1] = 2 * (n + nu) / x * bessel[n] - bessel[n - 1];
-  } else {
-    // Miller's algorithm: from any start far above, normalised at a member that is not small.
-    const int start = last + 20 + 2 * static_cast<int>(std::sqrt(40. * (last + 1)));
-    double above = 0, here = 1e-280;
-    unsigned int anchor = 0;
-    for (int n = start; n >= 0; --n) {
-      if (n <= static_cast<int>(last))
-        bessel[n] = here;
-      const double below = 2 * (n + nu) / x * here - above;
-      above = here;
-      here = below;
-      if (std::abs(here) > 1e250) {
-        above *= 1e-250;
-        here *= 1e-250;
-        for (unsigned int j = n; j <= last; ++j)
-          bessel[j] *= 1e-250;
-      }
-    }
-    for (unsigned int n = 1; n < std::min(count, 3u); ++n)
-      if (std::abs(bessel[n]) > std::abs(bessel[anchor]))
-        anchor = n;
-    const double factor = bessel_j(anchor + nu, x) / bessel[anchor];
-    for (double& value : bessel)
-      value *= factor;
-  }
   const double power = std::pow(x, -nu);
-  for (double& value : bessel)
-    value *= power;
-  return bessel;
+  // The recurrence of Bessel functions is stable upwards below the order x.
+  for (unsigned int n = 0; n < count; ++n)
+    transforms[n] = n < 2 || n - 1 + nu > x
+                        ? power * bessel_j(n + nu, x)
+                        : 2 * (n - 1 + nu) / x * transforms[n - 1] - transforms[n - 2];
+  return transforms;
 }
 
 std::vector<double> gegenbauer_polynomials(double nu, unsigned int count, double t) {
@@ -123,19 +91,11 @@ double GegenbauerPressure::operator()(double z) const {
   return std::abs(t) < 1 ? over_weight(z) * std::pow((1 - t) * (1 + t), nu - 0.5) : 0;
 }
 
-double GegenbauerPressure::cosine_integral(double k) const {
+std::complex<double> GegenbauerPressure::fourier_integral(double k) const {
   const std::vector<double> transforms = gegenbauer_transforms(nu, a.size(), k * w);
-  double sum = 0;
-  for (unsigned int n = 0; n < a.size(); n += 2)
-    sum += (n % 4 ? -1 : 1) * a[n] * transforms[n];
-  return w * sum;
-}
-
-double GegenbauerPressure::sine_integral(double k) const {
-  const std::vector<double> transforms = gegenbauer_transforms(nu, a.size(), k * w);
-  double sum = 0;
-  for (unsigned int n = 1; n < a.size(); n += 2)
-    sum += (n % 4 == 3 ? -1 : 1) * a[n] * transforms[n];
+  std::complex<double> sum = 0, power_of_i = 1;
+  for (unsigned int n = 0; n < a.size(); ++n, power_of_i *= std::complex<double>(0, 1))
+    sum += a[n] * transforms[n] * power_of_i;
   return w * sum;
 }
 

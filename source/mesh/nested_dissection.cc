@@ -1,6 +1,6 @@
 #include "rollwave/mesh/nested_dissection.h"
 
-#include "rollwave/mesh/lexicographic_dofs.h"
+#include "rollwave/mesh/ring_space.h"
 
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria.h>

@@ -3,16 +3,16 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/mesh/boundary_id.h"
-#include "rollwave/mesh/strip_mesh.h"
 #include "rollwave/scene/scene.h"
 
 #include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
+#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,6 +104,13 @@ void halve(std::vector<double>& places) {
   places = std::move(halved);
 }
 
+/// Makes z = pi/2 and z = 5 pi/2 one.
+void join_seam(Triangulation<2>& mesh) {
+  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
+  GridTools::collect_periodic_faces(mesh, seam_begin_id, seam_end_id, /*direction=*/1, seam);
+  mesh.add_periodicity(seam);
+}
+
 /// The rectangles between these places on one process.
 std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
                                             const std::vector<double>& angles) {
@@ -120,6 +127,26 @@ std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
       },
       *grid);
   return grid;
+}
+
+/// The same on several processes, which have as many columns along z each, and see those beside it.
+std::unique_ptr<Triangulation<2>> make_strips(const std::vector<double>& radii,
+                                              const std::vector<double>& angles,
+                                              MPI_Comm communicator) {
+  const auto share_out = [&](Triangulation<2>& grid, MPI_Comm, unsigned int /*group_size*/) {
+    join_seam(grid); // so that cells over it are seen
+    const std::uint64_t n_processes = count_processes(communicator);
+    for (const auto& cell : grid.active_cell_iterators()) {
+      const std::uint64_t column = cell->active_cell_index() / (radii.size() - 1);
+      cell->set_subdomain_id(column * n_processes / (angles.size() - 1));
+    }
+  };
+  auto mesh = std::make_unique<parallel::fullydistributed::Triangulation<2>>(communicator);
+  mesh->create_triangulation(
+      TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<2, 2>(
+          [&](Triangulation<2>& grid) { grid.copy_triangulation(*make_grid(radii, angles)); },
+          share_out, communicator, count_processes(communicator), smoothing));
+  return mesh;
 }
 
 /// All digits where they are exact.
@@ -167,7 +194,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
   if (is_alone(communicator))
     triangulation = make_grid(radii, angles);
   else if (!may_be_refined)
-    triangulation = make_strip_mesh(radii, angles, communicator);
+    triangulation = make_strips(radii, angles, communicator);
   else {
     // Cells change their process when a refinement is complete, and not before.
     using Distributed = parallel::distributed::Triangulation<2>;
@@ -175,10 +202,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
                                                   Distributed::no_automatic_repartitioning);
     triangulation->copy_triangulation(*make_grid(radii, angles));
   }
-  std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
-  GridTools::collect_periodic_faces(*triangulation, seam_begin_id, seam_end_id, /*direction=*/1,
-                                    seam);
-  triangulation->add_periodicity(seam);
+  join_seam(*triangulation);
   return triangulation;
 }
 

@@ -2,9 +2,8 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/mesh/boundary_id.h"
-#include "rollwave/mesh/lexicographic_dofs.h"
 #include "rollwave/mesh/nested_dissection.h"
+#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/function.h>
@@ -113,25 +112,18 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   turn_to(widest);
   candidates = contact;
   turn_to(scene);
-  look_over_cells();
 }
 
-void RingSpace::look_over_cells() {
+std::pair<double, double> RingSpace::diameters() const {
   double least = std::numeric_limits<double>::max(), largest = 0;
-  for (const auto& cell : handler.active_cell_iterators()) {
-    if (cell->is_artificial())
-      continue;
-    if (cell->at_boundary(1) || cell->at_boundary(2) || cell->at_boundary(3))
-      at_surface_or_seam.push_back(cell);
-    if (!cell->is_locally_owned())
-      continue;
-    const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
-    const double diameter = std::hypot(size[0], radius * size[1]);
-    least = std::min(least, diameter);
-    largest = std::max(largest, diameter);
-  }
-  least_and_largest_diameter = {Utilities::MPI::min(least, communicator()),
-                                Utilities::MPI::max(largest, communicator())};
+  for (const auto& cell : handler.active_cell_iterators())
+    if (cell->is_locally_owned()) {
+      const Tensor<1, 2> size = cell->vertex(3) - cell->vertex(0);
+      const double diameter = std::hypot(size[0], radius * size[1]);
+      least = std::min(least, diameter);
+      largest = std::max(largest, diameter);
+    }
+  return {Utilities::MPI::min(least, communicator()), Utilities::MPI::max(largest, communicator())};
 }
 
 void RingSpace::find_surface(const Scene& scene) {
@@ -207,6 +199,20 @@ std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
 Vector<double> RingSpace::contact_values(const FieldVector& field) const {
   const std::vector<double> values = values_at(*this, contact, field);
   return Vector<double>(values.begin(), values.end());
+}
+
+std::vector<DoFHandler<2>::active_cell_iterator>
+neighbours(const DoFHandler<2>::active_cell_iterator& cell, unsigned int face) {
+  const bool is_at_seam = cell->at_boundary(face);
+  if (is_at_seam && !cell->has_periodic_neighbor(face))
+    return {};
+  if (!cell->neighbor_or_periodic_neighbor(face)->has_children())
+    return {cell->neighbor_or_periodic_neighbor(face)};
+  const auto child = [&](unsigned int number) -> DoFHandler<2>::active_cell_iterator {
+    return is_at_seam ? cell->periodic_neighbor_child_on_subface(face, number)
+                      : cell->neighbor_child_on_subface(face, number);
+  };
+  return {child(0), child(1)};
 }
 
 } // namespace rollwave

@@ -24,7 +24,7 @@ Bounds certified_energy(const RunOptions& options, const RingSpace& space,
   const MeshSolution there = solve_on_mesh(moved, options, space, start, system, work);
   const CertifiedError error =
       certify(space, moved, there.problem, there.contact, there.displacement, system.force.get(),
-              system.load, system.dual_of(moved, space, work), work)
+              system.dual_of(moved, space, work), work)
           .error;
   return {error.lower_bound, error.upper_bound};
 }

@@ -1,7 +1,7 @@
 #include "rollwave/run/remarks.h"
 
 #include "rollwave/mesh/ring_mesh.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 
 #include <boost/math/tools/minima.hpp>
 

@@ -64,7 +64,7 @@ void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   try {
     solution.certificate =
         certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-                solution.system.force.get(), solution.system.load,
+                solution.system.force.get(),
                 solution.system.dual_of(scene, *solution.space, result.work), result.work);
   } catch (const NotSolved& failure) {
     result.shortfalls.push_back(

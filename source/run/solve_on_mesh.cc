@@ -20,12 +20,13 @@ namespace {
 
 MeshFigures describe_mesh(const RingSpace& space) {
   const auto& handler = space.dof_handler();
+  const auto [least_diameter, largest_diameter] = space.diameters();
   return {handler.get_fe().degree,
           static_cast<unsigned int>(handler.get_triangulation().n_global_active_cells()),
           space.n_unknowns(),
           static_cast<unsigned int>(space.contact_nodes().size()),
-          space.diameters().first,
-          space.diameters().second};
+          least_diameter,
+          largest_diameter};
 }
 
 /// @p field times rounding errors of random sign and usual size.

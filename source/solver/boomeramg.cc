@@ -8,7 +8,6 @@
 #include <HYPRE_IJ_mv.h>
 #include <HYPRE_parcsr_ls.h>
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -61,40 +60,27 @@ struct BoomerAmg::Hypre {
     HYPRE_IJMatrixCreate(communicator, first, first + n_rows - 1, first, first + n_rows - 1,
                          &matrix);
     HYPRE_IJMatrixSetObjectType(matrix, HYPRE_PARCSR);
+    HYPRE_IJMatrixInitialize(matrix);
     const int* const column_numbers = source.ColMap().MyGlobalElements();
     std::vector<bool> is_pinned(source.NumMyCols());
     for (unsigned int k = 0; k < is_pinned.size(); ++k)
       is_pinned[k] = pinned.is_element(column_numbers[k]);
     std::vector<HYPRE_BigInt> columns;
     std::vector<double> values;
-    const auto look_at_row = [&](HYPRE_Int i) {
-      HYPRE_Int n = 0;
+    for (HYPRE_Int i = 0; i < n_rows; ++i) {
+      HYPRE_Int n_all = 0;
       int* all_columns = nullptr;
       double* all_values = nullptr;
-      source.ExtractMyRowView(i, n, all_values, all_columns);
+      source.ExtractMyRowView(i, n_all, all_values, all_columns);
       columns.clear();
       values.clear();
       const bool is_alone = pinned.is_element(rows[i]);
-      for (int k = 0; k < n; ++k)
+      for (int k = 0; k < n_all; ++k)
         if (const int column = column_numbers[all_columns[k]];
             column == rows[i] || !(is_alone || is_pinned[all_columns[k]])) {
           columns.push_back(column);
           values.push_back(all_values[k]);
         }
-    };
-    // Known sizes of both parts of a row spare hypre a copy of the matrix.
-    std::vector<HYPRE_Int> own_sizes(n_rows), foreign_sizes(n_rows);
-    for (HYPRE_Int i = 0; i < n_rows; ++i) {
-      look_at_row(i);
-      own_sizes[i] = std::count_if(columns.begin(), columns.end(), [this](HYPRE_BigInt column) {
-        return column >= first && column < first + n_rows;
-      });
-      foreign_sizes[i] = columns.size() - own_sizes[i];
-    }
-    HYPRE_IJMatrixSetDiagOffdSizes(matrix, own_sizes.data(), foreign_sizes.data());
-    HYPRE_IJMatrixInitialize(matrix);
-    for (HYPRE_Int i = 0; i < n_rows; ++i) {
-      look_at_row(i);
       HYPRE_Int n = columns.size();
       HYPRE_IJMatrixSetValues(matrix, 1, &n, &rows[i], columns.data(), values.data());
     }

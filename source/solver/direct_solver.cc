@@ -3,51 +3,39 @@
 #include "rollwave/scene/scene.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace rollwave {
 
 using namespace dealii;
 
-void DirectSolver::number_unknowns(const Scene& scene) {
-  const Work::Phase phase(*work, "ordering");
-  const auto& nodes = space.candidate_nodes();
-  std::vector<double> heights;
-  for (const SurfaceNode& node : nodes)
-    heights.push_back(scene.road(node.angle));
-  std::vector<unsigned int> by_place(nodes.size());
-  std::iota(by_place.begin(), by_place.end(), 0);
-  std::stable_sort(by_place.begin(), by_place.end(),
-                   [&](auto left, auto right) { return heights[left] > heights[right]; });
-  std::vector<types::global_dof_index> last;
-  for (unsigned int place = 0; place < nodes.size(); ++place) {
-    place_of_dof[nodes[by_place[place]].dof] = place;
-    last.push_back(nodes[by_place[place]].dof);
-  }
-  cholesky = std::make_unique<SparseCholesky>(space, std::move(last));
-  cholesky->number_unknowns(space.constraints());
-}
-
 void DirectSolver::factorise(const Scene& scene) {
-  if (!cholesky)
-    number_unknowns(scene);
   angular_velocity.reset(); // until the factor is there
   is_reduced = false;
-  schur.reset();
+  factor.reinit(0);
+  schur.reinit(0);
+  {
+    const Work::Phase phase(*work, "ordering");
+    cholesky.number_unknowns(space.constraints());
+  }
   {
     LowerTriplets triplets;
     {
       const Work::Phase phase(*work, "assembly");
-      triplets = cholesky->assemble(space.constraints(), stiffness_products(space, scene));
+      triplets = cholesky.assemble(space.constraints(), stiffness_products(space, scene));
       ++work->stiffness_assemblies;
     }
     const Work::Phase phase(*work, "ordering");
-    cholesky->analyse(triplets, *work);
+    cholesky.analyse(triplets, *work);
   }
   const Work::Phase phase(*work, "factorisation");
-  cholesky->factorise(*work);
-  schur = std::make_unique<DenseSchur>(cholesky->factor().trailing_factor(place_of_dof.size()));
+  cholesky.factorise(*work);
+  const unsigned int m = space.candidate_nodes().size();
+  factor.reinit(m);
+  factor = cholesky.factor().trailing_factor(m);
+  schur.reinit(m);
+  factor.mTmult(schur, factor);
+  factor.set_property(LAPACKSupport::lower_triangular);
   angular_velocity = scene.angular_velocity;
 }
 
@@ -55,54 +43,99 @@ void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>&
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
-  places.clear();
-  for (const SurfaceNode& node : space.contact_nodes())
-    places.push_back(place_of_dof.at(node.dof));
+  const auto& candidates = space.candidate_nodes();
+  first_contact = std::find_if(candidates.begin(), candidates.end(),
+                               [&](const SurfaceNode& node) {
+                                 return node.dof == space.contact_nodes().front().dof;
+                               }) -
+                  candidates.begin();
 
   const Work::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
   this->load = load;
-  const unsigned int m = schur->size();
+  const unsigned int m = schur.m();
   contact_load.reinit(m);
   reduced_load.clear();
   if (load) {
-    reduced_load = cholesky->factor().forward(cholesky->gather(*load));
+    reduced_load = cholesky.factor().forward(cholesky.gather(*load));
     ++work.forward_substitutions;
-    contact_load = schur->multiply(Vector<double>(reduced_load.end() - m, reduced_load.end()));
+    factor.vmult(contact_load, Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
   is_reduced = true;
 }
 
-Vector<double> DirectSolver::to_places(const Vector<double>& contact_values) const {
-  Vector<double> values(schur->size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    values(places[i]) = contact_values(i);
+template <typename Values>
+Values DirectSolver::on_candidates(const Values& contact_values) const {
+  Values values(schur.m());
+  std::copy(contact_values.begin(), contact_values.end(), values.begin() + first_contact);
   return values;
 }
 
-Vector<double> DirectSolver::from_places(const Vector<double>& values) const {
-  Vector<double> contact_values(places.size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    contact_values(i) = values(places[i]);
-  return contact_values;
+Vector<double> DirectSolver::on_contact(const Vector<double>& values) const {
+  const auto first = values.begin() + first_contact;
+  return Vector<double>(first, first + space.contact_nodes().size());
 }
 
 Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {
-  return from_places(schur->solve(to_places(force)));
+  Vector<double> displacement = on_candidates(force);
+  divide_by_schur(displacement);
+  return on_contact(displacement);
+}
+
+void DirectSolver::divide_by_schur(Vector<double>& force) const {
+  factor.solve(force);
+  factor.solve(force, /*transposed=*/true);
+}
+
+/// Sets u_i of the candidates that are not pinned and N_i of those that are.
+/// @return whether this needed a factorisation, as with both kinds of them
+bool DirectSolver::solve_dense(const std::vector<bool>& pinned, Vector<double>& displacement,
+                               Vector<double>& force) const {
+  std::vector<unsigned int> free;
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (!pinned[i]) {
+      free.push_back(i);
+      displacement(i) = 0;
+    }
+  const auto force_left = [&] { // g - S u
+    Vector<double> left(pinned.size());
+    schur.vmult(left, displacement);
+    left.sadd(-1, contact_load);
+    return left;
+  };
+  const Vector<double> left = force_left();
+  Vector<double> solution(free.size());
+  for (unsigned int k = 0; k < free.size(); ++k)
+    solution(k) = left(free[k]) - force(free[k]);
+  const bool is_mixed = !free.empty() && free.size() < pinned.size();
+  if (is_mixed) {
+    LAPACKFullMatrix<double> block(free.size());
+    for (unsigned int k = 0; k < free.size(); ++k)
+      for (unsigned int l = 0; l < free.size(); ++l)
+        block(k, l) = schur(free[k], free[l]);
+    block.set_property(LAPACKSupport::symmetric);
+    block.compute_cholesky_factorization();
+    block.solve(solution);
+  } else if (!free.empty())
+    divide_by_schur(solution);
+  for (unsigned int k = 0; k < free.size(); ++k)
+    displacement(free[k]) = solution(k);
+  const Vector<double> reactions = force_left();
+  for (unsigned int i = 0; i < pinned.size(); ++i)
+    if (pinned[i])
+      force(i) = reactions(i);
+  return is_mixed;
 }
 
 double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
-  std::vector<bool> is_pinned(schur->size());
-  for (unsigned int i = 0; i < places.size(); ++i)
-    is_pinned[places[i]] = pinned[i];
-  Vector<double> displacement = to_places(state.displacement), force = to_places(state.force);
-  if (schur->solve(is_pinned, contact_load, displacement, force) > 0)
-    ++work->dense_factorisations;
-  state.displacement = from_places(displacement);
-  state.force = from_places(force);
+  Vector<double> displacement = on_candidates(state.displacement),
+                 force = on_candidates(state.force);
+  work->dense_factorisations += solve_dense(on_candidates(pinned), displacement, force);
+  state.displacement = on_contact(displacement);
+  state.force = on_contact(force);
   return 0;
 }
 
@@ -111,22 +144,21 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.
-  Vector<double> displacement = to_places(state.displacement), force(schur->size());
-  std::vector<bool> is_pinned(schur->size());
-  for (const unsigned int place : places)
-    is_pinned[place] = true;
-  schur->solve(is_pinned, contact_load, displacement, force);
+  Vector<double> displacement = on_candidates(state.displacement), force(schur.m());
+  solve_dense(on_candidates(std::vector<bool>(state.displacement.size(), true)), displacement,
+              force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
-  const Vector<double> trailing = schur->transposed_multiply(displacement);
+  Vector<double> trailing(schur.m());
+  factor.Tvmult(trailing, displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
   ++work->back_substitutions;
-  FieldVector field = cholesky->scatter(cholesky->factor().backward(std::move(rhs)));
+  FieldVector field = cholesky.scatter(cholesky.factor().backward(std::move(rhs)));
   space.constraints().distribute(field);
   return field;
 }
 
 FieldVector DirectSolver::apply(const FieldVector& field) const {
-  return cholesky->scatter(cholesky->factor().multiply(cholesky->gather(field)));
+  return cholesky.scatter(cholesky.factor().multiply(cholesky.gather(field)));
 }
 
 } // namespace rollwave

@@ -9,88 +9,48 @@ namespace rollwave {
 
 using namespace dealii;
 
-namespace {
-
-/// Adds up cell matrices to a matrix of the unknowns: constrained degrees of freedom are replaced
-/// by the combination of unknowns that their constraint names.
-class TripletAssembler {
-public:
-  TripletAssembler(const RingSpace& space, const AffineConstraints<double>& constraints,
-                   const std::vector<int>& unknown_of_dof)
-      : constraints(constraints), unknown_of_dof(unknown_of_dof),
-        unknowns(space.dof_handler().get_fe().n_dofs_per_cell()), combinations(unknowns.size()) {
-    const std::size_t expected = space.dof_handler().get_triangulation().n_active_cells() *
-                                 (unknowns.size() * (unknowns.size() + 1) / 2);
-    triplets.rows.reserve(expected);
-    triplets.columns.reserve(expected);
-    triplets.values.reserve(expected);
-  }
-
-  void add(const std::vector<types::global_dof_index>& dofs, const FullMatrix<double>& matrix) {
-    bool is_free = true;
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
-      unknowns[i] = unknown_of_dof[dofs[i]];
-      is_free = is_free && unknowns[i] >= 0;
-    }
-    if (is_free) // as most cells are
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        for (unsigned int j = 0; j <= i; ++j)
-          triplets.add(std::max(unknowns[i], unknowns[j]), std::min(unknowns[i], unknowns[j]),
-                       matrix(i, j));
-    else
-      add_constrained(dofs, matrix);
-  }
-
-  LowerTriplets triplets;
-
-private:
-  void add_constrained(const std::vector<types::global_dof_index>& dofs,
-                       const FullMatrix<double>& matrix) {
-    for (unsigned int i = 0; i < dofs.size(); ++i) {
-      combinations[i].clear();
-      if (unknowns[i] >= 0)
-        combinations[i].emplace_back(unknowns[i], 1.);
-      else
-        for (const auto& [dof, weight] : *constraints.get_constraint_entries(dofs[i]))
-          combinations[i].emplace_back(unknown_of_dof[dof], weight);
-    }
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      for (unsigned int j = 0; j < dofs.size(); ++j)
-        for (const auto& [row, row_weight] : combinations[i])
-          for (const auto& [column, column_weight] : combinations[j])
-            if (row >= column)
-              triplets.add(row, column, row_weight * column_weight * matrix(i, j));
-  }
-
-  const AffineConstraints<double>& constraints;
-  const std::vector<int>& unknown_of_dof;
-  std::vector<int> unknowns; ///< of the cell's degrees of freedom
-  std::vector<std::vector<std::pair<int, double>>> combinations;
-};
-
-} // namespace
-
 void SparseCholesky::number_unknowns(const AffineConstraints<double>& constraints) {
+  if (cholesky)
+    return;
   unknown_of_dof.assign(space.dof_handler().n_dofs(), -1);
   constexpr int later = -2;
-  for (const auto dof : last)
-    unknown_of_dof[dof] = later;
+  for (const SurfaceNode& node : last)
+    unknown_of_dof[node.dof] = later;
   int n_unknowns = 0;
   for (const auto dof : space.elimination_order())
     if (unknown_of_dof[dof] != later && !constraints.is_constrained(dof))
       unknown_of_dof[dof] = n_unknowns++;
-  for (const auto dof : last)
-    unknown_of_dof[dof] = n_unknowns++;
+  for (const SurfaceNode& node : last)
+    unknown_of_dof[node.dof] = n_unknowns++;
   cholesky = std::make_unique<CholmodFactor>(n_unknowns);
 }
 
 LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constraints,
                                        const RadialProducts& radial) const {
-  TripletAssembler assembler(space, constraints, unknown_of_dof);
-  add_cell_matrices(space, radial, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
-    assembler.add(dofs, cell_matrix);
+  const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
+  LowerTriplets triplets;
+  triplets.reserve(n * (n + 1) / 2 *
+                   std::size_t(space.dof_handler().get_triangulation().n_active_cells()));
+  // For each degree of freedom of a cell the unknown that it is, or the combination of unknowns
+  // that its constraint names.
+  std::vector<std::vector<std::pair<int, double>>> combinations(n);
+  add_cell_matrices(space, radial, [&](const auto& dofs, const FullMatrix<double>& matrix) {
+    for (unsigned int i = 0; i < n; ++i) {
+      combinations[i].clear();
+      if (unknown_of_dof[dofs[i]] >= 0)
+        combinations[i].emplace_back(unknown_of_dof[dofs[i]], 1.);
+      else
+        for (const auto& [dof, weight] : *constraints.get_constraint_entries(dofs[i]))
+          combinations[i].emplace_back(unknown_of_dof[dof], weight);
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        for (const auto& [row, row_weight] : combinations[i])
+          for (const auto& [column, column_weight] : combinations[j])
+            if (row >= column)
+              triplets.add(row, column, row_weight * column_weight * matrix(i, j));
   });
-  return std::move(assembler.triplets);
+  return triplets;
 }
 
 void SparseCholesky::analyse(const LowerTriplets& triplets, Work& work) {
@@ -113,8 +73,7 @@ void SparseCholesky::factorise(Work& work) {
 void SparseCholesky::set_matrix(const Scene& /*scene*/,
                                 const AffineConstraints<double>& constraints,
                                 const RadialProducts& radial, Work& work) {
-  if (!cholesky)
-    number_unknowns(constraints);
+  number_unknowns(constraints);
   analyse(assemble(constraints, radial), work);
   factorise(work);
 }

@@ -1,7 +1,7 @@
 #include "rollwave/verify/true_errors.h"
 
 #include "rollwave/exact/exact_field.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -200,7 +200,7 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   errors.is_resolved = errors.energy_norm >= floor;
   if (certificate) {
     const CertifiedError& certified = certificate->error;
-    const double work_of_feasible = work + certificate->work_of_rest;
+    const double work_of_feasible = certificate->work_of_force;
     const double energy = certified.norm_squared / 2 - work_of_feasible;
     errors.admissible_energy_norm = energy_distance(exact, trace_of(space, certificate->trace),
                                                     certified.norm_squared, work_of_feasible);

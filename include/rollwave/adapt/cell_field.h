@@ -2,7 +2,7 @@
 #define ROLLWAVE_ADAPT_CELL_FIELD_H
 
 #include "rollwave/mesh/ring_mesh.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/line_elements.h"
 
 #include <deal.II/base/point.h>
 

@@ -3,17 +3,9 @@
 
 #include "rollwave/contact/contact_problem.h"
 
-#include <optional>
+#include <vector>
 
 namespace rollwave {
-
-struct UzawaSettings {
-  /// Step length, pressure over displacement in the user's lengths; nullopt: automatic.
-  std::optional<double> rho;
-  UzawaStop stop;
-  double tolerance;
-  unsigned int most_steps;
-};
 
 /**
  * The method of Ross and Bercovier: with p = -lambda <= 0, from p = 0 or the pressures lambda of @p
@@ -31,10 +23,10 @@ struct UzawaSettings {
  * of the contact conditions is told in ContactSolution::shortfall.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
- *         settings.most_steps steps.
+ *         options.most_steps steps.
  */
 ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
-                      const UzawaSettings& settings, const dealii::Vector<double>& start = {});
+                      const ContactOptions& options, const dealii::Vector<double>& start = {});
 
 /**
  * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes

@@ -27,10 +27,9 @@ public:
   /// A stretch of an edge, in the coordinate t from 0 at its begin to 1 at its end.
   struct Piece {
     enum class Kind {
-      free,     ///< outside of the zone: c = 0
-      limited,  ///< c = -(u_h - phi)^+, of one sign but for roots not found
-      touching, ///< c = phi - u_h
-      ramp      ///< c = value_begin (t_end - t)/(t_end - t_begin) + value_end (t - t_begin)/(...)
+      outside, ///< of the zone: c is a straight line from value_begin to value_end
+      limited, ///< c = -(u_h - phi)^+, of one sign but for roots not found
+      touching ///< c = phi - u_h
     } kind;
     double t_begin;
     double t_end;

@@ -3,7 +3,6 @@
 
 #include "rollwave/error_bound/admissible_displacement.h"
 
-#include <optional>
 #include <vector>
 
 namespace rollwave {
@@ -61,18 +60,16 @@ struct Certificate {
   CertifiedError error;            ///< the bounds
   std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
   AdmissibleTrace trace;           ///< v on the surface
-  double work_of_rest;             ///< (f, v - u_h), u_h the displacement certified
+  double work_of_force;            ///< (f, v), by G_h
 };
 
 /// Certifies the solution @p contact with the displacement @p field.
 /// @param force that of the scene, nullptr without
-/// @param load of the same, nullopt without
 /// @param stress_function of the same space and speed
 /// @throws NotSolved when an iteration fails
 Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
                     const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, const std::optional<FieldVector>& load,
-                    StressFunction& stress_function, Work& work);
+                    const ForceIntegral* force, StressFunction& stress_function, Work& work);
 
 } // namespace rollwave
 

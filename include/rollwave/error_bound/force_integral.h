@@ -8,16 +8,11 @@
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 
-#include <cstddef>
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
-
-/// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
-/// degree + 2 points or, for a force that is an expression, one more, G_h being of a higher degree.
-dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
 
 /**
  * All that load and error bound know of a force f, its integral from the surface inwards,
@@ -25,8 +20,8 @@ dealii::QGauss<1> angular_rule(const Scene& scene, unsigned int degree);
  *     G(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int G w_r dr dz   for w = 0 on r = a,
  *
  * in place of which they take a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For
- * an expression G_h is, on each cell, the polynomial that equals G at the points of angular_rule()
- * along z and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
+ * an expression G_h is, on each cell, the polynomial that equals G at the points of rule() along z
+ * and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
  * whole mesh, on each line z = const of its own.
  *
  * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
@@ -44,7 +39,8 @@ public:
   /// @throws BadInput where f is not finite, on all processes of the space
   ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
 
-  /// angular_rule() of the scene.
+  /// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
+  /// degree + 2 points or, for an expression, one more, G_h being of a higher degree.
   const dealii::QGauss<1>& rule() const { return angular; }
 
   /// Whether G is a function of r alone, which does no work on periodic potentials.
@@ -52,7 +48,7 @@ public:
 
   /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
   const double* on_line(unsigned int cell, unsigned int p) const {
-    return &values[first[cell] + (number ? 0 : p * n_radii[cell])];
+    return &values[cell][number ? 0 : p * n_radii(cell)];
   }
 
   /// The same at the share @p t of the cell's angular interval.
@@ -80,13 +76,16 @@ private:
   void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
   void conclude(const RingSpace& space, const ForceScan& scan, double sum,
                 dealii::Point<2> largest_cell);
+  unsigned int n_radii(unsigned int cell) const {
+    return values[cell].size() / (number ? 1 : angular.size());
+  }
 
   const bool number;
   const dealii::QGauss<1> angular;
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
-  std::vector<double> values;         ///< of a cell: all radii on the first line, then on the next
-  std::vector<std::size_t> first;     ///< of each active cell, among the values
-  std::vector<unsigned int> n_radii;  ///< likewise
+
+  /// G_h of each active cell at all radii on the first line, then on the next.
+  std::vector<std::vector<double>> values;
   std::vector<double> errors_squared; ///< of each active cell; empty for a number
   double delta = 0, width = 0;
 };

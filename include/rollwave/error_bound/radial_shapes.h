@@ -1,9 +1,8 @@
 #ifndef ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
 #define ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
 
-#include "rollwave/mesh/graded_quadrature.h"
-#include "rollwave/mesh/interval_map.h"
-#include "rollwave/mesh/tensor_elements.h"
+#include "rollwave/mesh/assembly.h"
+#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/polynomial.h>
@@ -11,6 +10,8 @@
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -65,6 +66,11 @@ struct RadialShapes {
   std::vector<double> alpha;
   std::vector<RadialShape> shapes; ///< all numbers at the first point, then at the next
 
+  /// The rule on each of the pieces that the interval is cut into, by which the values of a
+  /// function at the points of a piece give the coefficient of the highest Legendre polynomial,
+  /// orthonormal on [0, 1], that they determine.
+  std::vector<double> highest_mode;
+
   /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
   ShapeProducts products;
 
@@ -81,15 +87,13 @@ public:
 
   const RadialShapes& on(double begin, double end);
 
-  /// The rule of an interval, or of each of the pieces that it is cut into.
-  dealii::QGauss<1> gauss(double begin, double end) const;
-
 private:
+  dealii::QGauss<1> gauss(double begin, double end) const;
   RadialShapes make(double begin, double end) const;
 
   const Scene scene;
   std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
-  IntervalMap<RadialShapes> known;
+  std::map<std::pair<double, double>, RadialShapes> known;
 };
 
 } // namespace rollwave

@@ -4,7 +4,9 @@
 #include "rollwave/error_bound/admissible_pressure.h"
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/radial_shapes.h"
+#include "rollwave/mesh/assembly.h"
 #include "rollwave/mesh/ring_space.h"
+#include "rollwave/solver/choose_solver.h"
 #include "rollwave/solver/spd_solver.h"
 
 #include <memory>
@@ -33,7 +35,7 @@ class StressFunction {
 public:
   /// Makes the matrix, which depends on the speed of the scene alone, and prepares to solve with
   /// it.
-  /// @param kind that of make_spd_solver()
+  /// @param kind direct or iterative
   /// @throws NotSolved when memory is short
   StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind, Work& work);
 
@@ -50,6 +52,8 @@ public:
   RadialShapesOfMesh& shapes() { return radial; }
 
 private:
+  RadialProducts products();
+
   const RingSpace& space;
   const double speed;
   RadialShapesOfMesh radial;

@@ -49,7 +49,7 @@ private:
   double computed_compliance(double k) const;
   bool hub_matters(double k) const;
 
-  /// k / sigma_k at the Chebyshev points of the panels [64, 128], [128, 256], ...
+  /// k / sigma_k at the Gauss-Legendre points of the panels [64, 128], [128, 256], ...
   std::vector<std::vector<double>> panels;
 
   double a, b, omega;

@@ -24,8 +24,8 @@ public:
   /// At a <= r <= b and any angle.
   Value operator()(double r, double z) const;
 
-  /// For each of @p radii the coefficients of u(r, .) over cos(k (z - 3 pi/2)), as many as are not
-  /// negligible there.
+  /// For each of @p radii, in ascending order, the coefficients of u(r, .) over
+  /// cos(k (z - 3 pi/2)), as many as are not negligible there.
   std::vector<std::vector<double>> cosine_coefficients(const std::vector<double>& radii) const;
 
 private:

@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_EXACT_GEGENBAUER_PRESSURE_H
 #define ROLLWAVE_EXACT_GEGENBAUER_PRESSURE_H
 
+#include <complex>
 #include <vector>
 
 namespace rollwave {
@@ -30,11 +31,8 @@ public:
   /// lambda(z) / (1 - t^2)^(nu - 1/2), a polynomial.
   double over_weight(double z) const;
 
-  /// int lambda cos(k (z - m)) dz, from the even n.
-  double cosine_integral(double k) const;
-
-  /// int lambda sin(k (z - m)) dz, from the odd n.
-  double sine_integral(double k) const;
+  /// int lambda e^(i k (z - m)) dz
+  std::complex<double> fourier_integral(double k) const;
 
   double middle() const { return m; }
   double half_width() const { return w; }

@@ -2,7 +2,6 @@
 #define ROLLWAVE_MESH_ASSEMBLY_H
 
 #include "rollwave/mesh/ring_space.h"
-#include "rollwave/mesh/tensor_elements.h"
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -12,6 +11,13 @@
 namespace rollwave {
 
 struct Scene;
+
+/// The integrals of products of two shape functions, or of their derivatives, over one direction of
+/// a cell: n x n, n = degree + 1.
+struct ShapeProducts {
+  dealii::FullMatrix<double> mass;
+  dealii::FullMatrix<double> stiffness;
+};
 
 /// A form on products R(r) Z(z),
 ///
@@ -26,8 +32,7 @@ using RadialProducts = std::function<const ShapeProducts&(double begin, double e
 using AddCellMatrix = std::function<void(const std::vector<dealii::types::global_dof_index>& dofs,
                                          const dealii::FullMatrix<double>& cell_matrix)>;
 
-/// Calls @p add with the tensor_matrix() of every cell of this process. Constraints are not
-/// applied.
+/// Calls @p add with the matrix of every cell of this process. Constraints are not applied.
 void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
                        const AddCellMatrix& add);
 

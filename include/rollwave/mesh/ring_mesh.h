@@ -9,6 +9,14 @@ namespace rollwave {
 
 struct Scene;
 
+/// Boundary ids of the rectangle (r, z) in [a, b] x [pi/2, 5 pi/2].
+enum BoundaryId : unsigned int {
+  hub_id = 0,        ///< r = a, where u = 0
+  surface_id = 1,    ///< r = b, which meets the road
+  seam_begin_id = 2, ///< z = pi/2, opposite to the road
+  seam_end_id = 3    ///< z = 5 pi/2, the same points as z = pi/2
+};
+
 /// The highest degree of elements.
 constexpr unsigned int highest_degree = 8;
 
@@ -35,7 +43,8 @@ void check_mesh_size(const MeshOptions& mesh);
  * cut the contact short at another place on every mesh.
  *
  * On several processes each has a part of it. Which class it is of is up to what will be done with
- * it: p4est's if it @p may_be_refined, a make_strip_mesh() if not.
+ * it: p4est's if it @p may_be_refined; if not, columns of cells along z, numbered one after
+ * another, through which assembly and multigrid run faster than through p4est's parts.
  *
  * @throws BadValue as check_mesh_size(), NotEnoughMemory.
  */

@@ -69,12 +69,7 @@ public:
   unsigned int n_unknowns() const { return unknowns; }
 
   /// The least and the largest diameter of a cell, (h_r^2 + b^2 h_z^2)^(1/2).
-  std::pair<double, double> diameters() const { return least_and_largest_diameter; }
-
-  /// The cells at the surface or the seam that a process has or that are next to its own.
-  const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& outer_cells() const {
-    return at_surface_or_seam;
-  }
+  std::pair<double, double> diameters() const;
 
   /// All nodes on r = b by increasing angle.
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
@@ -124,7 +119,6 @@ public:
 
 private:
   void find_surface(const Scene& scene);
-  void look_over_cells();
 
   double radius;
   dealii::FE_Q<2> element;
@@ -134,8 +128,6 @@ private:
   dealii::IndexSet relevant;
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
   unsigned int unknowns;
-  std::pair<double, double> least_and_largest_diameter;
-  std::vector<dealii::DoFHandler<2>::active_cell_iterator> at_surface_or_seam;
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceNode> contact, candidates;
   unsigned int first_contact = 0; ///< number of its first node in surface
@@ -143,6 +135,33 @@ private:
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
 };
+
+/// The degrees of freedom of a cell with elements of degree p by their places: that of node (i, j)
+/// in (r, z) has the number i + (p + 1) j.
+class LexicographicDofs {
+public:
+  explicit LexicographicDofs(const dealii::DoFHandler<2>& handler)
+      : numbering(dynamic_cast<const dealii::FE_Q<2>&>(handler.get_fe())
+                      .get_poly_space_numbering_inverse()),
+        hierarchic(numbering.size()), lexicographic(numbering.size()) {}
+
+  /// @return valid until the next call
+  const std::vector<dealii::types::global_dof_index>&
+  of(const dealii::DoFHandler<2>::active_cell_iterator& cell) {
+    cell->get_dof_indices(hierarchic);
+    for (std::size_t i = 0; i < numbering.size(); ++i)
+      lexicographic[i] = hierarchic[numbering[i]];
+    return lexicographic;
+  }
+
+private:
+  const std::vector<unsigned int> numbering;
+  std::vector<dealii::types::global_dof_index> hierarchic, lexicographic;
+};
+
+/// The active cells beyond a face, over the seam as well: none, one or two.
+std::vector<dealii::DoFHandler<2>::active_cell_iterator>
+neighbours(const dealii::DoFHandler<2>::active_cell_iterator& cell, unsigned int face);
 
 } // namespace rollwave
 

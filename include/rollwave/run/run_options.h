@@ -6,7 +6,7 @@
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/solver/solver_options.h"
+#include "rollwave/solver/choose_solver.h"
 
 namespace rollwave {
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,12 @@ struct LowerTriplets {
   std::vector<int> rows;
   std::vector<int> columns;
   std::vector<double> values;
+
+  void reserve(std::size_t size) {
+    rows.reserve(size);
+    columns.reserve(size);
+    values.reserve(size);
+  }
 
   void add(int row, int column, double value) {
     rows.push_back(row);

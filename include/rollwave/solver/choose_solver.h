@@ -3,7 +3,6 @@
 
 #include "rollwave/base/work.h"
 #include "rollwave/solver/contact_linear_solver.h"
-#include "rollwave/solver/solver_options.h"
 
 #include <memory>
 #include <optional>
@@ -12,6 +11,20 @@
 namespace rollwave {
 
 struct Scene;
+
+enum class SolverKind {
+  /// "auto": the kind that suits the mesh.
+  automatic,
+  /// "direct": one sparse Cholesky factorisation for each mesh.
+  direct,
+  /// "iterative": conjugate gradients with algebraic multigrid.
+  iterative
+};
+
+/// Section `Solver`.
+struct SolverOptions {
+  SolverKind kind = SolverKind::automatic;
+};
 
 /// A solver and, where its kind is not the one that the user may expect, the reason.
 struct SolverChoice {

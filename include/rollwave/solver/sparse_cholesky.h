@@ -12,16 +12,15 @@ namespace rollwave {
 /// elimination of the space; the analysis is kept.
 class SparseCholesky : public SpdSolver {
 public:
-  /// @param last degrees of freedom, none of them constrained, to be eliminated last, in this order
-  explicit SparseCholesky(const RingSpace& space,
-                          std::vector<dealii::types::global_dof_index> last = {})
-      : space(space), last(std::move(last)) {}
+  /// @param last nodes, none of them constrained, to be eliminated last, in this order
+  explicit SparseCholesky(const RingSpace& space, const std::vector<SurfaceNode>& last = {})
+      : space(space), last(last) {}
 
   void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
                   const RadialProducts& radial, Work& work) override;
   FieldVector solve(const FieldVector& rhs, Work& work) override;
 
-  // set_matrix() in its steps; the first one is needed once:
+  // set_matrix() in its steps; the first one does nothing when it is repeated:
   void number_unknowns(const dealii::AffineConstraints<double>& constraints);
   LowerTriplets assemble(const dealii::AffineConstraints<double>& constraints,
                          const RadialProducts& radial) const;
@@ -39,7 +38,7 @@ public:
 
 private:
   const RingSpace& space;
-  const std::vector<dealii::types::global_dof_index> last;
+  const std::vector<SurfaceNode> last;
   std::vector<int> unknown_of_dof; ///< -1 where a constraint holds
   std::unique_ptr<CholmodFactor> cholesky;
 };

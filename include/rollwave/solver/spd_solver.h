@@ -3,9 +3,6 @@
 
 #include "rollwave/base/work.h"
 #include "rollwave/mesh/assembly.h"
-#include "rollwave/solver/solver_options.h"
-
-#include <memory>
 
 namespace rollwave {
 
@@ -27,9 +24,6 @@ public:
   /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
   virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
 };
-
-/// Of the @p kind direct or iterative.
-std::unique_ptr<SpdSolver> make_spd_solver(SolverKind kind, const RingSpace& space);
 
 } // namespace rollwave
 

@@ -1,9 +1,17 @@
-#include "rollwave/mesh/graded_quadrature.h"
+#include "rollwave/mesh/line_elements.h"
+
+#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace rollwave {
+
+using namespace dealii;
+
+std::vector<Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree) {
+  return Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
+}
 
 std::vector<double> graded_radii(double begin, double end) {
   const unsigned int n_pieces = std::max(1., std::ceil(std::log2(end / begin) - 1e-12));
@@ -14,7 +22,7 @@ std::vector<double> graded_radii(double begin, double end) {
   return radii;
 }
 
-RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points) {
+RadialRule graded_rule(double begin, double end, const Quadrature<1>& points) {
   const std::vector<double> radii = graded_radii(begin, end);
   RadialRule rule;
   for (unsigned int piece = 0; piece + 1 < radii.size(); ++piece)

@@ -1,11 +1,15 @@
-#ifndef ROLLWAVE_MESH_GRADED_QUADRATURE_H
-#define ROLLWAVE_MESH_GRADED_QUADRATURE_H
+#ifndef ROLLWAVE_MESH_LINE_ELEMENTS_H
+#define ROLLWAVE_MESH_LINE_ELEMENTS_H
 
+#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature.h>
 
 #include <vector>
 
 namespace rollwave {
+
+/// Lagrange polynomials on [0, 1] with nodes at the Gauss-Lobatto points, as the elements have.
+std::vector<dealii::Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree);
 
 /// A quadrature rule for dr on a radial interval.
 struct RadialRule {
