@@ -16,7 +16,7 @@ namespace {
 double zoom_of(const Scene& scene, const Result& result) {
   const double gap = scene.road_distance / scene.outer_radius - 1;
   if (!result.patch.ends)
-    return std::max(0.2, 2 * gap);
+    return std::max(0.2, 3 * gap);
   return 1.5 * std::max(std::abs(from_lowest_point(result.patch.ends->first)),
                         std::abs(from_lowest_point(result.patch.ends->second)));
 }
@@ -57,9 +57,9 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
     add_surface(point);
   add_surface(result.surface.front());
   script << "EOD\n$road << EOD\n";
-  for (const double z :
-       angles_of_road(scene, 4 * std::max(scene.outer_radius, scene.road_distance)))
-    add_point(1 + scene.road(z) / scene.outer_radius, z);
+  for (const auto& [x, y] :
+       points_of_road(scene, 4 * std::max(scene.outer_radius, scene.road_distance)))
+    script << x / scene.outer_radius << ' ' << y / scene.outer_radius << '\n';
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
     script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap / b) << ' '
@@ -71,7 +71,7 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
 const char* const pictures = R"(
 set style line 1 linewidth 2.5 linecolor rgb '#1f5fa8'
 set style line 2 linewidth 1.5 dashtype 2 linecolor rgb '#707070'
-set style line 3 linewidth 2.5 linecolor rgb '#7a5c2e'
+set style line 3 linewidth 2.5 linecolor rgb '#4a3818'
 set style line 4 linewidth 1.5 linecolor rgb '#000000'
 set parametric
 set samples 361
@@ -84,7 +84,7 @@ set yrange [-half:half]
 set xlabel 'x / b' offset 0,0.6
 set ylabel 'y / b' offset 1
 set key below horizontal
-plot '$road' using 1:2 with filledcurves y1=-half fillcolor rgb '#e8e4dc' notitle, \
+plot '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c' notitle, \
      '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
      cos(t),sin(t) with lines linestyle 2 title 'undeformed', \
      '$surface' using 1:2 with lines linestyle 1 title 'deformed', \
@@ -102,7 +102,7 @@ set xrange [-zoom:zoom]
 set yrange [-c-0.36*height:-c+0.64*height]
 set format '%g'
 plot '$surface' using 1:2 with filledcurves y1=0 fillcolor rgb '#dbe7f3', \
-     '$road' using 1:2 with filledcurves y1=-c-height fillcolor rgb '#e8e4dc', \
+     '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c', \
      cos(t),sin(t) with lines linestyle 2, \
      '$surface' using 1:2 with lines linestyle 1, \
      '$road' using 1:2 with lines linestyle 3
@@ -118,11 +118,13 @@ set bmargin at screen 0.37
 set yrange [0:*]
 set ylabel 'gap / b'
 set xlabel ''
+set format x ''
 plot '$contact' using 1:2 with lines linestyle 3
 )";
 const char* const pressure = R"(
 set tmargin at screen 0.32
 set bmargin at screen 0.11
+set format x '%g'
 set xlabel '(z - 3 pi / 2) / rad'
 plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
      '$contact' using 1:3 with lines linestyle 1 linecolor rgb '#b3541e'
@@ -144,11 +146,12 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << "a = " << scene.inner_radius / scene.outer_radius
          << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
-         << "\nheight = " << 2 * zoom * ratio << "\nset multiplot title \""
+         << "\nroad_side = \"" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
+         << "\"\nheight = " << 2 * zoom * ratio << "\nset multiplot title \""
          << title_of(scene, result) << "\"\n"
          << pictures;
-  if (const auto& ends = result.patch.ends)
-    for (const double z : {ends->first, ends->second})
+  for (const ContactPatch& patch : result.patch.patches)
+    for (const double z : {patch.begin, patch.end})
       script << "set arrow from " << from_lowest_point(z) << ",graph 0 to " << from_lowest_point(z)
              << ",graph 1 nohead dashtype 3 linewidth 1.5\n";
   script << gap;

@@ -59,15 +59,20 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
 
 } // namespace
 
-std::vector<double> angles_of_road(const Scene& scene, double radius) {
-  const Road road = scene.road_at(scene.road_distance);
-  const double half =
-      std::min(road.crossing_angle(radius - scene.outer_radius), 0.499 * dealii::numbers::PI);
-  constexpr unsigned int n = 500;
-  std::vector<double> angles;
-  for (unsigned int i = 0; i <= n; ++i)
-    angles.push_back(dealii::numbers::PI * 3 / 2 + half * (2. * i / n - 1));
-  return angles;
+std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double longest) {
+  const double kappa = scene.road_curvature, c = scene.road_distance;
+  const double most = dealii::numbers::PI * (kappa > 0 ? 1 : 0.5);
+  const double half = std::abs(kappa) * longest > most ? most / std::abs(kappa) : longest;
+  constexpr int n = 400;
+  std::vector<std::pair<double, double>> points;
+  for (int i = -n; i <= n; ++i) {
+    const double s = half * i / n, sine = std::sin(kappa * s / 2);
+    if (kappa == 0)
+      points.emplace_back(s, -c);
+    else
+      points.emplace_back(std::sin(kappa * s) / kappa, -c - 2 * sine * sine / kappa);
+  }
+  return points;
 }
 
 std::string surface_vtu(const Scene& scene, const Result& result) {
@@ -95,11 +100,12 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
 }
 
 std::string road_vtu(const Scene& scene) {
-  const std::vector<double> angles =
-      angles_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance));
-  std::vector<double> radius;
-  for (const double z : angles)
-    radius.push_back((scene.outer_radius + scene.road(z)) * scene.units.length);
+  std::vector<double> radius, angles;
+  for (const auto& [x, y] :
+       points_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance))) {
+    radius.push_back(std::hypot(x, y) * scene.units.length);
+    angles.push_back(1.5 * dealii::numbers::PI + std::atan2(x, -y));
+  }
   return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
 }
 

@@ -148,11 +148,41 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
+/// @p most of the numbers below @p n, evenly chosen, or all.
+std::vector<unsigned int> evenly(unsigned int n, unsigned int most) {
+  const unsigned int n_chosen = std::min(n, most);
+  std::vector<unsigned int> chosen;
+  for (unsigned int i = 0; i < n_chosen; ++i)
+    chosen.push_back(n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1));
+  return chosen;
+}
+
+/// About as many runs as can be told apart: of the last key some values, of the others at most
+/// three.
+std::vector<unsigned int> runs_to_show(const Study& study) {
+  constexpr unsigned int most = 12, most_rows = 3;
+  const unsigned int n_runs = study.plans.size();
+  if (n_runs <= most)
+    return evenly(n_runs, n_runs);
+  unsigned int n_columns = 1;
+  const auto value = [&](unsigned int run) {
+    return study.plans[run].varied.empty() ? "" : study.plans[run].varied.back().value;
+  };
+  while (n_columns < n_runs && value(n_columns) != value(0))
+    ++n_columns;
+  const auto rows = evenly(n_runs / n_columns, most_rows);
+  std::vector<unsigned int> runs;
+  for (const unsigned int row : rows)
+    for (const unsigned int column : evenly(n_columns, most / rows.size()))
+      runs.push_back(row * n_columns + column);
+  return runs;
+}
+
 Panel profiles(const Study& study) {
-  Panel panel{"angle from the lowest point, z - 3π/2",
+  Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
               "contact pressure" + units_of(study).in_brackets(Quantity::pressure),
               {}};
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
+  for (const unsigned int run : runs_to_show(study))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
@@ -179,17 +209,19 @@ std::optional<Picture> map_of_load(const Study& study) {
         {{x[run], y[run], study.figure(run, "vertical_load").value_or(nothing)}});
   }
   const Units units = units_of(study);
-  return plot_map("vertical load" + units.in_brackets(Quantity::force) + "; " + title_of(study),
-                  words(varied[0], units), words(varied[study.first_keys[1]], units), lines);
+  return plot_map(title_of(study), words(varied[0], units),
+                  words(varied[study.first_keys[1]], units),
+                  "vertical load" + units.in_brackets(Quantity::force), lines);
 }
 
 /// The plots by their names.
 std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
   std::vector<std::pair<std::string, Picture>> pictures;
   const std::string title = title_of(study);
-  const auto add = [&](const std::string& name, const std::vector<Panel>& panels) {
+  const auto add = [&](const std::string& name, const std::vector<Panel>& panels,
+                       const std::string& remark = "") {
     if (!panels.front().curves.empty())
-      pictures.emplace_back(name, plot_panels(title, panels));
+      pictures.emplace_back(name, plot_panels(title + remark, panels));
   };
   const auto x =
       study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
@@ -198,7 +230,10 @@ std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
   if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
     if (!x.empty())
       add("study-curves.svg", curves(study, x));
-    add("study-profiles.svg", {profiles(study)});
+    const Panel panel = profiles(study);
+    const std::string n_shown = std::to_string(panel.curves.size());
+    add("study-profiles.svg", {panel},
+        "; " + n_shown + " of " + std::to_string(study.runs.size()) + " runs");
   }
   if (study.has("error_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :

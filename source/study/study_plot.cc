@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned int most_curves = 12;
 
-/// Colours of curves; with the dashes they can be told apart in print as well.
+/// Colours of curves; with dashes and points they can be told apart in print as well.
 const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                           "#000000", "#e69f00", "#56b4e9", "#8b4513",
                                           "#7a3fbf", "#808000", "#d00030", "#707070"};
@@ -46,7 +46,7 @@ double below(const std::vector<Curve>& curves, double slope) {
 
 std::string style(unsigned int curve) {
   return " linecolor rgb '" + colours[curve % most_curves] + "' dashtype " +
-         std::to_string(1 + curve % 4);
+         std::to_string(1 + curve % 4) + " pointtype " + std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
 /// The command that plots a panel, whose curves are the data blocks $nPANEL_CURVE. @param
@@ -65,10 +65,9 @@ void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigne
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
     const std::string name = "$n" + std::to_string(number) + '_' + std::to_string(i);
-    script << (i > 0 ? ", " : "") << name
-           << (curve.points.size() > 40 ? " with lines"
-                                        : " with linespoints pointtype 7 pointsize 0.5")
-           << " linewidth 2" << style(i) << " title " << quoted(curve.title);
+    script << (i > 0 ? ", " : "") << name << " with linespoints pointsize 0.6 pointinterval "
+           << 1 + curve.points.size() / 40 << " linewidth 2" << style(i) << " title "
+           << quoted(curve.title);
     if (!curve.marks.empty())
       script << ", " << name << "m with points linecolor rgb '" << colours[i % most_curves]
              << "' pointtype 6 pointsize 1.4 linewidth 2 title "
@@ -92,13 +91,15 @@ std::vector<Curve> distinct(std::vector<Curve> curves) {
 
 } // namespace
 
-Picture plot_panels(const std::string& title, std::vector<Panel> panels) {
+Picture plot_panels(std::string title, std::vector<Panel> panels) {
+  if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves)
+    title += "; " + std::to_string(most_curves) + " of " + std::to_string(n_curves) + " curves";
   for (Panel& panel : panels)
     panel.curves = distinct(std::move(panel.curves));
   std::ostringstream script;
   script.precision(9);
   script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
-  unsigned int n_titles = 0;
+  unsigned int n_titles = 0, longest = 0;
   for (unsigned int k = 0; k < panels.size(); ++k)
     for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
       const Curve& curve = panels[k].curves[i];
@@ -107,18 +108,20 @@ Picture plot_panels(const std::string& title, std::vector<Panel> panels) {
       if (!curve.marks.empty())
         write_points(script, name + 'm', curve.marks);
       n_titles += k == 0 ? 1 + !curve.marks.empty() : 0;
+      longest = std::max<unsigned int>(longest, curve.title.size());
     }
   const bool is_single = panels.size() == 1;
   n_titles += panels[0].slopes.size();
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
+  const unsigned int width = is_single ? 760 : 1000;
+  const unsigned int letter = 8, sample = 70; // in the legend
+  const unsigned int legend_columns = std::clamp(width / (letter * longest + sample), 1u, 4u);
   const unsigned int columns = is_single ? 1 : 2, rows = (panels.size() + columns - 1) / columns,
-                     legend_columns = is_single ? 3 : 4,
                      legend_rows =
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
-                     width = is_single ? 760 : 1000,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title " << quoted(title)
-         << " margins " << (is_single ? 0.14 : 0.09) << ",0.97,"
+         << " margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
          << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
@@ -128,6 +131,7 @@ Picture plot_panels(const std::string& title, std::vector<Panel> panels) {
 }
 
 Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+                 const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
   std::ostringstream script;
   script.precision(9);
@@ -145,7 +149,7 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
          << quoted(title) << "\nset xlabel " << quoted(x_label) << "\nset ylabel "
-         << quoted(y_label)
+         << quoted(y_label) << "\nset cblabel " << quoted(value_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1\n";
   return draw(script.str(), 760, 560);

@@ -27,11 +27,12 @@ struct Panel {
 };
 
 /// Panels beside and below each other. They have the same curves, with one legend below them; of
-/// more curves than can be told apart, evenly chosen ones.
-Picture plot_panels(const std::string& title, std::vector<Panel> panels);
+/// more curves than can be told apart, evenly chosen ones, which the title says.
+Picture plot_panels(std::string title, std::vector<Panel> panels);
 
 /// Values over a grid of x and y as colours with contour lines, in lines of constant x.
 Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+                 const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines);
 
 } // namespace rollwave
