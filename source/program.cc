@@ -5,7 +5,6 @@
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
-#include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study_files.h"

@@ -92,8 +92,8 @@ for i in range(grid.GetNumberOfPoints()):
         lowest_stress = min(lowest_stress, stress.GetValue(i))
 check(abs(lowest_stress + peak_pressure) < 0.1 * peak_pressure, "stress under the contact")
 
-# The surface is a closed line; where there is pressure it is on the road.
-check(surface.GetNumberOfCells() == 1, "one line")
+# The surface is a closed line; where there is pressure it is on the road. Numbers are single.
+check(surface.GetNumberOfCells() == angular_cells * degree, "pieces of the line")
 check(surface.GetNumberOfPoints() == angular_cells * degree + 1, "nodes of the surface")
 fields = surface.GetPointData()
 pressure, gap, displacement = (fields.GetArray(name)
@@ -101,13 +101,13 @@ pressure, gap, displacement = (fields.GetArray(name)
 check(abs(pressure.GetRange()[1] - peak_pressure) < 1e-2 * peak_pressure, "peak pressure")
 for i in range(surface.GetNumberOfPoints()):
     x, y, _ = surface.GetPoint(i)
-    check(abs(math.hypot(x, y) - 1 - displacement.GetValue(i)) < 1e-14, "radius of the surface")
+    check(abs(math.hypot(x, y) - 1 - displacement.GetValue(i)) < 1e-6, "radius of the surface")
     if pressure.GetValue(i) != 0:
-        check(pressure.GetValue(i) > 0 and abs(y + distance) < 1e-12, "pressure on the road")
-        check(abs(gap.GetValue(i)) < 1e-14, "no gap under pressure")
+        check(pressure.GetValue(i) > 0 and abs(y + distance) < 1e-6, "pressure on the road")
+        check(abs(gap.GetValue(i)) < 1e-7, "no gap under pressure")
     check(math.isnan(gap.GetValue(i)) == (-y / math.hypot(x, y) <= distance / 2), "gap at the road")
 for i in range(road.GetNumberOfPoints()):
-    check(abs(road.GetPoint(i)[1] + distance) < 1e-14, "road")
+    check(abs(road.GetPoint(i)[1] + distance) < 1e-6, "road")
 
 # Nodes obey the road exactly; between them the polynomial through points of a curve of curvature
 # below 1 leaves it by no more than h^2 / 8 of the node spacing h.

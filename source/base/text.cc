@@ -96,6 +96,13 @@ unsigned int to_count(const std::string& text, unsigned int least, unsigned int 
   return static_cast<unsigned int>(number);
 }
 
+std::string rounded(double number, int digits) {
+  std::ostringstream text;
+  text.precision(digits);
+  text << number + 0.; // no -0
+  return text.str();
+}
+
 std::string shortest_text(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof(text), number).ptr};

@@ -1,5 +1,6 @@
 #include "rollwave/output/screen_report.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/base/version.h"
 
 #include <deal.II/base/table_handler.h>
@@ -16,6 +17,14 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
+
+/// Prints a table, which deal.II does not do on a stream that has failed, but throws: who waits for
+/// files shall not lose them with the screen.
+void print_table(std::ostream& out, const TableHandler& table) {
+  std::ostringstream text;
+  table.write_text(text, TableHandler::table_with_headers);
+  out << text.str();
+}
 
 /// A long history is told by its ends.
 constexpr unsigned int most_lines = 40;
@@ -46,19 +55,14 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history,
 void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, const Units& units) {
   TableHandler table;
   for (unsigned int i = 0; i < cycles.size(); ++i) {
-    const auto number = [](bool exists, double value) {
-      std::ostringstream text;
-      text << std::setprecision(3) << value;
-      return exists ? text.str() : std::string("-");
-    };
     table.add_value("cycle", i + 1);
     table.add_value("cells", cycles[i].cells);
     table.add_value("unknowns", cycles[i].dofs);
     table.add_value("contact steps", cycles[i].contact_steps);
     table.add_value("indicated error" + units.in_brackets(Quantity::energy_norm),
-                    number(cycles[i].indicated > 0, cycles[i].indicated));
+                    cycles[i].indicated > 0 ? rounded(cycles[i].indicated, 3) : "-");
     table.add_value("certified, relative",
-                    number(cycles[i].certified.has_value(), cycles[i].certified.value_or(0)));
+                    cycles[i].certified ? rounded(*cycles[i].certified, 3) : "-");
   }
   out << "\nAdaptive refinement\n";
   print_table(out, table);
@@ -98,13 +102,6 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
 }
 
 } // namespace
-
-void print_table(std::ostream& out, const TableHandler& table) {
-  // deal.II does not write to a stream that has failed, but throws.
-  std::ostringstream text;
-  table.write_text(text, TableHandler::table_with_headers);
-  out << text.str();
-}
 
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters) {
   const auto& [cylinder, road, material] =
@@ -182,6 +179,50 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
       << result.residuals.complementarity << "; rounding u makes " << result.residuals.round_off
       << '\n'
       << std::setprecision(6);
+}
+
+void report_verification(std::ostream& out, const Scene& scene, const Result& result,
+                         const ExactSolution& exact) {
+  const Units& units = scene.units;
+  TableHandler table;
+  const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
+                       double accuracy) {
+    const double unit = units.of(quantity);
+    table.add_value("quantity", name + units.in_brackets(quantity));
+    table.add_value("computed", rounded(ours * unit, 12));
+    table.add_value("exact", rounded(theirs * unit, 12));
+    table.add_value("difference", rounded((ours - theirs) * unit, 3));
+    table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
+    table.add_value("exact to", accuracy > 0 ? rounded(accuracy, 1) : "-");
+  };
+  add("force F", Quantity::force, result.patch.force, exact.force, exact.force_accuracy);
+  add("vertical load", Quantity::force, result.patch.vertical_load, exact.vertical_load,
+      exact.force_accuracy);
+  add("work-conjugate load G", Quantity::force, result.patch.work_conjugate_load,
+      exact.work_conjugate_load, exact.force_accuracy);
+  add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
+  add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
+  add("half-width / rad", Quantity::number, result.patch.half_width(), exact.half_width,
+      exact.half_width_accuracy);
+  add("peak pressure", Quantity::pressure, result.patch.peak_pressure, exact.peak_pressure, 0);
+  if (result.errors && result.errors->exact_distance)
+    add("distance c", Quantity::length, result.road_distance, *result.errors->exact_distance,
+        1e-10);
+  out << "\nVerification against the semi-analytic solution\n";
+  print_table(out, table);
+  if (!exact.ends_resolved)
+    out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
+           "are.\n";
+  if (const auto errors = in_users_units(result, units).errors) {
+    out << "Error in the energy norm ";
+    if (errors->is_resolved)
+      out << errors->energy_norm << units.after(Quantity::energy_norm) << ", relative "
+          << errors->relative_energy_norm;
+    else
+      out << "too small for the exact answer to tell";
+    out << "; in L2 " << errors->l2_norm << units.after(Quantity::area)
+        << ", of the pressure in L2 " << errors->pressure << '\n';
+  }
 }
 
 void report_files(std::ostream& out, const WrittenFiles& written) {

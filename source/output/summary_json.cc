@@ -12,6 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// What is not finite becomes null as well.
 Json number_or_null(bool exists, double number) {
   return exists ? Json(number) : Json(nullptr);
 }
@@ -79,8 +80,7 @@ void add_energy_and_errors(const Result& result, Json& json) {
     json["energy"]["upper_bound"] = result.certified->upper_bound;
     json["error"]["force_data"] = result.certified->force_data;
     json["error"]["certified_energy_norm"] = result.certified->energy_norm;
-    json["error"]["certified_relative"] =
-        number_or_null(std::isfinite(result.certified->relative), result.certified->relative);
+    json["error"]["certified_relative"] = result.certified->relative;
     const double width = result.certified->sampled_width;
     json["error"]["force_sampled_width"] = number_or_null(width > 0, width);
   }
@@ -118,8 +118,8 @@ void add_cycles(const RunOptions& options, const Result& result, Json& json) {
          {"dofs", cycle.dofs},
          {"contact_steps", cycle.contact_steps},
          {"indicated_error", number_or_null(cycle.indicated > 0, cycle.indicated)},
-         {"certified_relative", number_or_null(cycle.certified && std::isfinite(*cycle.certified),
-                                               cycle.certified.value_or(0))}});
+         {"certified_relative",
+          number_or_null(cycle.certified.has_value(), cycle.certified.value_or(0))}});
 
   const bool is_uzawa = options.contact.method == ContactMethod::uzawa;
   json["iterations"] = {{"method", is_uzawa ? "uzawa" : "active set"},

@@ -1,12 +1,10 @@
 #include "rollwave/output/surface_vtu.h"
 
+#include <deal.II/base/data_out_base.h>
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 #include <sstream>
 #include <utility>
@@ -14,46 +12,34 @@
 
 namespace rollwave {
 
+using namespace dealii;
+
 namespace {
 
 using Field = std::pair<std::string, std::vector<double>>; ///< by its name
 
-/// An array of VTK's XML in its binary form, the only one that can hold what is not a number.
-template <typename Number>
-std::string data_array(const std::string& type, const std::string& name, unsigned int n_components,
-                       const std::vector<Number>& values) {
-  const std::uint32_t n_bytes = values.size() * sizeof(Number);
-  std::vector<unsigned char> bytes(sizeof(n_bytes) + n_bytes);
-  std::memcpy(bytes.data(), &n_bytes, sizeof(n_bytes));
-  std::memcpy(bytes.data() + sizeof(n_bytes), values.data(), n_bytes);
-  return "<DataArray type=\"" + type + "\" Name=\"" + name + "\" NumberOfComponents=\"" +
-         std::to_string(n_components) + "\" format=\"binary\">" +
-         dealii::Utilities::encode_base64(bytes) + "</DataArray>\n";
-}
-
 /// A line through the points at @p radius over the angles that are the first of the @p fields.
 std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>& fields) {
   const std::vector<double>& angles = fields.front().second;
-  std::vector<double> points;
-  std::vector<std::int64_t> numbers;
-  for (std::size_t i = 0; i < angles.size(); ++i) {
-    points.insert(points.end(),
-                  {radius[i] * std::cos(angles[i]), radius[i] * std::sin(angles[i]), 0.});
-    numbers.push_back(i);
+  const unsigned int n_fields = fields.size(), n_points = angles.size();
+  DataOutBase::Patch<1, 2> patch;
+  patch.n_subdivisions = n_points - 1;
+  patch.points_are_available = true; // behind the data
+  patch.data.reinit(n_fields + 2, n_points);
+  std::vector<std::string> names;
+  for (const auto& [name, values] : fields) {
+    for (unsigned int i = 0; i < n_points; ++i)
+      patch.data(names.size(), i) = values[i];
+    names.push_back(name);
   }
-  const std::vector<std::int64_t> end = {static_cast<std::int64_t>(numbers.size())};
-  constexpr unsigned char poly_line = 4; // VTK's number
+  for (unsigned int i = 0; i < n_points; ++i) {
+    patch.data(n_fields, i) = radius[i] * std::cos(angles[i]);
+    patch.data(n_fields + 1, i) = radius[i] * std::sin(angles[i]);
+  }
+  DataOutBase::VtkFlags flags;
+  flags.print_date_and_time = false; // a run repeated gives the same file
   std::ostringstream out;
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-         "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\""
-      << angles.size() << "\" NumberOfCells=\"1\">\n<Points>\n"
-      << data_array("Float64", "points", 3, points) << "</Points>\n<Cells>\n"
-      << data_array("Int64", "connectivity", 1, numbers) << data_array("Int64", "offsets", 1, end)
-      << data_array("UInt8", "types", 1, std::vector<unsigned char>{poly_line})
-      << "</Cells>\n<PointData>\n";
-  for (const auto& [name, values] : fields)
-    out << data_array("Float64", name, 1, values);
-  out << "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  DataOutBase::write_vtu<1, 2>({patch}, names, {}, flags, out);
   return out.str();
 }
 
@@ -61,7 +47,7 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
 
 std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double longest) {
   const double kappa = scene.road_curvature, c = scene.road_distance;
-  const double most = dealii::numbers::PI * (kappa > 0 ? 1 : 0.5);
+  const double most = numbers::PI * (kappa > 0 ? 1 : 0.5);
   const double half = std::abs(kappa) * longest > most ? most / std::abs(kappa) : longest;
   constexpr int n = 400;
   std::vector<std::pair<double, double>> points;
@@ -88,8 +74,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
   };
   for (const SurfacePoint& point : result.surface)
     add(point);
-  add({result.surface.front().angle + 2 * dealii::numbers::PI,
-       result.surface.front().displacement});
+  add({result.surface.front().angle + 2 * numbers::PI, result.surface.front().displacement});
   const auto name = [&scene](const std::string& field, Quantity quantity) {
     return field + scene.units.in_brackets(quantity);
   };
@@ -104,7 +89,7 @@ std::string road_vtu(const Scene& scene) {
   for (const auto& [x, y] :
        points_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance))) {
     radius.push_back(std::hypot(x, y) * scene.units.length);
-    angles.push_back(1.5 * dealii::numbers::PI + std::atan2(x, -y));
+    angles.push_back(1.5 * numbers::PI + std::atan2(x, -y));
   }
   return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
 }

@@ -1,10 +1,10 @@
 #include "rollwave/parameters/declarations.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/text.h"
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 
 namespace rollwave {
 
@@ -27,10 +27,8 @@ void Declarations::add(const std::string& key, const std::string& default_text,
 
 void Declarations::add_number(const std::string& key, double& number, double least, double most,
                               const std::string& text) {
-  std::ostringstream default_text;
-  default_text << number;
   add(
-      key, default_text.str(),
+      key, rounded(number, 6),
       [&number, least, most](const std::string& text) {
         number = to_number(text);
         if (number < least || number > most)

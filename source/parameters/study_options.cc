@@ -1,14 +1,13 @@
 #include "rollwave/parameters/study_options.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/text.h"
 #include "rollwave/parameters/declarations.h"
 
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace rollwave {
@@ -18,13 +17,6 @@ namespace {
 /// A study lists all of its combinations before it begins.
 constexpr unsigned int most_varied_keys = 20;
 constexpr unsigned int most_runs = 100000;
-
-/// @p number with the digits that a user would write.
-std::string short_text(double number) {
-  std::ostringstream text;
-  text << std::setprecision(12) << number;
-  return text.str();
-}
 
 /// The values of "first : last : step" or "first : last / number", otherwise the text itself, which
 /// may be an expression with a colon.
@@ -56,7 +48,7 @@ std::vector<std::string> values_of(const std::string& text) {
   std::vector<std::string> values;
   for (unsigned int i = 0; i < n_values; ++i) {
     const double value = first + i * step;
-    values.push_back(short_text(std::abs(value) < 1e-12 * std::abs(step) ? 0. : value));
+    values.push_back(rounded(std::abs(value) < 1e-12 * std::abs(step) ? 0. : value, 12));
   }
   return values;
 }

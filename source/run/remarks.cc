@@ -1,5 +1,6 @@
 #include "rollwave/run/remarks.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/mesh/line_elements.h"
 
@@ -7,8 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace rollwave {
 
@@ -44,14 +43,8 @@ bool passes_road(const Scene& scene, const RingSpace& space, const Result& resul
   return false;
 }
 
-std::string rounded(double value) {
-  std::ostringstream text;
-  text << std::setprecision(2) << value;
-  return text.str();
-}
-
 /// How many unknowns the wanted error needs by the rate of the meshes so far, such as "1e-07 needs
-/// about 4e+06 unknowns at degree 2"; empty where these are too few to tell.
+/// about 4e+06 unknowns at degree 2; "; empty where these are too few to tell.
 std::string cost_text(const RunOptions& options, const Result& result) {
   const double wanted = options.mesh.wanted_relative_error;
   const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that tell the rate
@@ -65,13 +58,11 @@ std::string cost_text(const RunOptions& options, const Result& result) {
     return {};
   const double rate =
       std::log(begin->indicated / end->indicated) / std::log(double(end->dofs) / begin->dofs);
-  std::ostringstream text;
-  text << wanted << " needs about " << std::setprecision(1)
-       << result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate)
-       << " unknowns at degree " << result.mesh.degree;
-  if (result.mesh.degree < highest_degree && options.mesh.marking != Marking::all)
-    text << ", fewer at a higher one";
-  return text.str();
+  const double needed = result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate);
+  const bool has_higher =
+      result.mesh.degree < highest_degree && options.mesh.marking != Marking::all;
+  return rounded(wanted, 6) + " needs about " + rounded(needed, 1) + " unknowns at degree " +
+         std::to_string(result.mesh.degree) + (has_higher ? ", fewer at a higher one; " : "; ");
 }
 
 } // namespace
@@ -91,7 +82,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   const double depth = depth_outside(scene, result) / scene.outer_radius;
   if (options.road.contact_zone && depth > 1e-9)
     remarks.push_back("outside of the zone, where there is no contact, the surface lies up to " +
-                      rounded(depth) +
+                      rounded(depth, 2) +
                       " b within the road; give a wider Road/Contact zone if it shall not");
   if (result.certified && !(result.certified->relative < 1)) {
     std::string remark = "the certified relative error is 1 or more, so that no digit is certified";
@@ -122,26 +113,23 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
 
 std::string missing_error_text(const RunOptions& options, const Result& result,
                                bool is_at_finest_level) {
-  std::ostringstream text;
-  if (result.certified)
-    text << "the certified relative error is " << result.certified->relative << ", wanted "
-         << options.mesh.wanted_relative_error << "; ";
-  if (const std::string cost = cost_text(options, result); !cost.empty())
-    text << cost << "; ";
-  text << (is_at_finest_level
-               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
-                 "Mesh/Angular cells, or want less"
-               : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
-  return text.str();
+  const std::string reached = result.certified
+                                  ? "the certified relative error is " +
+                                        rounded(result.certified->relative, 6) + ", wanted " +
+                                        rounded(options.mesh.wanted_relative_error, 6) + "; "
+                                  : "";
+  return reached + cost_text(options, result) +
+         (is_at_finest_level
+              ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
+                "Mesh/Angular cells, or want less"
+              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
 }
 
 std::string residual_text(const Residuals& residuals) {
-  std::ostringstream text;
-  text << "the conditions of contact and equilibrium hold to " << residuals.largest()
-       << " only, wanted " << wanted_residual << "; rounding the displacement makes "
-       << residuals.round_off
-       << ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
-  return text.str();
+  return "the conditions of contact and equilibrium hold to " + rounded(residuals.largest(), 6) +
+         " only, wanted " + rounded(wanted_residual, 6) + "; rounding the displacement makes " +
+         rounded(residuals.round_off, 6) +
+         ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
 }
 
 } // namespace rollwave

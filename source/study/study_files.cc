@@ -48,40 +48,25 @@ bool is_of_scene(const Setting& setting) {
          setting.section == "Road";
 }
 
-/// What all runs have in common: scene, method and mesh.
+/// What all runs have in common: scene, degree and method.
 std::string title_of(const Study& study) {
-  const Parameters& p = study.plans.front().parameters;
-  std::set<std::string> varied;
-  for (const Setting& setting : study.plans.front().varied)
-    varied.insert(setting.path());
+  const RunPlan& plan = study.plans.front();
+  std::set<std::string> told_keys = {"Contact/Method"};
+  if (plan.scene.empty())
+    told_keys.insert({"Cylinder/Inner radius", "Cylinder/Outer radius", "Cylinder/Radial force",
+                      "Cylinder/Angular velocity", "Road/Distance", "Road/Load", "Mesh/Degree"});
+  if (plan.parameters.road.curvature != 0)
+    told_keys.insert("Road/Curvature");
+  for (const Setting& setting : plan.varied)
+    told_keys.erase(setting.path());
+  std::stringstream all;
+  print_parameters(all, plan.parameters.settings);
   std::string title;
-  const auto add_text = [&title](const std::string& text) {
-    title += (title.empty() ? "" : ", ") + text;
-  };
-  const auto add = [&](const std::string& section, const std::string& key, const auto& value) {
-    std::ostringstream text;
-    text << value;
-    if (varied.count(section + '/' + key) == 0)
-      add_text(told({section, key, text.str(), ""}, units_of(study)));
-  };
-  if (study.plans.front().scene.empty()) {
-    add("Cylinder", "Inner radius", p.cylinder.inner_radius);
-    add("Cylinder", "Outer radius", p.cylinder.outer_radius);
-    add("Cylinder", "Angular velocity", p.cylinder.angular_velocity);
-    add("Cylinder", "Radial force", p.cylinder.radial_force);
-    if (p.road.load)
-      add("Road", "Load", *p.road.load);
-    else
-      add("Road", "Distance", p.road.distance);
-    if (p.road.curvature != 0)
-      add("Road", "Curvature", p.road.curvature);
-    add("Mesh", "Degree", p.mesh.degree);
-  }
-  if (varied.count("Contact/Method") == 0)
-    add_text(p.contact.method == ContactMethod::uzawa ? "Uzawa's method" : "active set");
-  if (most_cycles(p.mesh) > 0)
-    add_text("adaptive");
-  return title;
+  for (const Setting& setting : read_settings(all, "parameters"))
+    if (told_keys.count(setting.path()) > 0 && setting.value != "none")
+      title += (title.empty() ? "" : ", ") +
+               (setting.key == "Method" ? setting.value : told(setting, units_of(study)));
+  return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 
 /// For each choice of all keys but those that vary fastest a curve of a figure over the first of

@@ -1,5 +1,7 @@
 #include "rollwave/study/study_plot.h"
 
+#include "rollwave/base/text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,14 +26,16 @@ std::string quoted(const std::string& text) {
   return '\'' + doubled + '\'';
 }
 
-void write_points(std::ostream& script, const std::string& name, const Points& points) {
-  script << name << " << EOD\n";
+/// With all digits that a picture can show.
+std::string plotted(double number) {
+  return std::isnan(number) ? "NaN" : rounded(number, 9);
+}
+
+/// As inline data, one block for each '-' of a command.
+void write_points(std::ostream& data, const Points& points) {
   for (const auto& [x, y] : points)
-    if (std::isnan(y))
-      script << x << " NaN\n";
-    else
-      script << x << ' ' << y << '\n';
-  script << "EOD\n";
+    data << plotted(x) << ' ' << plotted(y) << '\n';
+  data << "e\n";
 }
 
 /// c of the line y = c x^slope, below all points.
@@ -44,14 +48,16 @@ double below(const std::vector<Curve>& curves, double slope) {
   return least / 2;
 }
 
-std::string style(unsigned int curve) {
-  return " linecolor rgb '" + colours[curve % most_curves] + "' dashtype " +
-         std::to_string(1 + curve % 4) + " pointtype " + std::to_string(7 - 2 * (curve / 4 % 3));
+/// Of the line of a curve, which repeats after twelve.
+std::string style(unsigned int curve, std::size_t n_points) {
+  return "linespoints pointsize 0.6 pointinterval " + std::to_string(1 + n_points / 40) +
+         " dashtype " + std::to_string(1 + curve % 4) + " pointtype " +
+         std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
-/// The command that plots a panel, whose curves are the data blocks $nPANEL_CURVE. @param
-/// legend_rows of the legend of all panels; 0 for none
-void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigned int legend_rows) {
+/// The command that plots a panel, with its data. @param legend_rows of the legend of all panels; 0
+/// for none
+void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label);
   if (legend_rows > 0)
     script << "\nset key at screen 0.5, 0.01 center bottom vertical maxrows " << legend_rows;
@@ -62,22 +68,25 @@ void plot(std::ostream& script, const Panel& panel, unsigned int number, unsigne
                              : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
                                "set autoscale xfix\n")
          << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\nplot ";
+  std::ostringstream data;
+  auto add = [&, is_first = true](const Points& points, unsigned int curve,
+                                  const std::string& style, const std::string& title) mutable {
+    script << (is_first ? "" : ", ") << "'-' with " << style << " linewidth 2 linecolor rgb '"
+           << colours[curve] << "' title " << quoted(title);
+    write_points(data, points);
+    is_first = false;
+  };
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    const std::string name = "$n" + std::to_string(number) + '_' + std::to_string(i);
-    script << (i > 0 ? ", " : "") << name << " with linespoints pointsize 0.6 pointinterval "
-           << 1 + curve.points.size() / 40 << " linewidth 2" << style(i) << " title "
-           << quoted(curve.title);
+    add(curve.points, i, style(i, curve.points.size()), curve.title);
     if (!curve.marks.empty())
-      script << ", " << name << "m with points linecolor rgb '" << colours[i % most_curves]
-             << "' pointtype 6 pointsize 1.4 linewidth 2 title "
-             << quoted(curve.title + " published");
+      add(curve.marks, i, "points pointtype 6 pointsize 1.4", curve.title + " published");
   }
   for (unsigned int i = 0; i < panel.slopes.size(); ++i)
     script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]
            << ") with lines linecolor rgb '#808080' dashtype " << 3 + i << " title 'slope "
            << panel.slopes[i] << "'";
-  script << '\n';
+  script << '\n' << data.str();
 }
 
 /// Evenly chosen curves, where there are more than can be told apart.
@@ -99,19 +108,12 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
   std::ostringstream script;
   script.precision(9);
   script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
-  unsigned int n_titles = 0, longest = 0;
-  for (unsigned int k = 0; k < panels.size(); ++k)
-    for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
-      const Curve& curve = panels[k].curves[i];
-      const std::string name = "$n" + std::to_string(k) + '_' + std::to_string(i);
-      write_points(script, name, curve.points);
-      if (!curve.marks.empty())
-        write_points(script, name + 'm', curve.marks);
-      n_titles += k == 0 ? 1 + !curve.marks.empty() : 0;
-      longest = std::max<unsigned int>(longest, curve.title.size());
-    }
   const bool is_single = panels.size() == 1;
-  n_titles += panels[0].slopes.size();
+  unsigned int n_titles = panels[0].slopes.size(), longest = 0;
+  for (const Curve& curve : panels[0].curves) {
+    n_titles += curve.marks.empty() ? 1 : 2;
+    longest = std::max<unsigned int>(longest, curve.title.size());
+  }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
   const unsigned int width = is_single ? 760 : 1000;
   const unsigned int letter = 8, sample = 70; // in the legend
@@ -125,7 +127,7 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
          << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
-    plot(script, panels[k], k, k == 0 ? legend_rows : 0);
+    plot(script, panels[k], k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
   return draw(script.str(), width, height);
 }
@@ -134,14 +136,10 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
                  const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
   std::ostringstream script;
-  script.precision(9);
   script << "set encoding utf8\n$map << EOD\n";
   for (const auto& line : lines) {
     for (const auto& [x, y, value] : line)
-      if (std::isnan(value))
-        script << x << ' ' << y << " NaN\n";
-      else
-        script << x << ' ' << y << ' ' << value << '\n';
+      script << plotted(x) << ' ' << plotted(y) << ' ' << plotted(value) << '\n';
     script << '\n';
   }
   script << "EOD\nset datafile missing 'NaN'\nset contour base\nset cntrparam levels 10\n"

@@ -9,6 +9,8 @@
 #include "rollwave/study/study_bench.h"
 #include "rollwave/study/study_table.h"
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <fstream>
 #include <functional>
@@ -73,24 +75,20 @@ void adopt(const std::string& earlier, Study& study) {
       study.runs[i] = run->second;
 }
 
-/// The directories of the files of runs that are to be made: run-NNN with the number of the run,
-/// or the next one that no earlier run has.
+/// The directories of the files of runs that are to be made: run-001 and so on, without those that
+/// earlier runs have.
 std::vector<std::string> choose_directories(const Study& study) {
   std::set<std::string> taken;
   for (const auto& run : study.runs)
     if (run)
       taken.insert(run->files);
-  std::vector<std::string> directories;
-  for (unsigned int i = 0; i < study.runs.size(); ++i) {
-    std::string name;
-    for (unsigned int number = i + 1; !study.runs[i] && name.empty(); ++number) {
-      const std::string digits = std::to_string(number);
-      name = "run-" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits;
-      if (!taken.insert(name).second)
-        name.clear();
-    }
-    directories.push_back(name);
-  }
+  std::vector<std::string> directories(study.runs.size());
+  unsigned int number = 0;
+  for (unsigned int i = 0; i < study.runs.size(); ++i)
+    if (!study.runs[i])
+      do
+        directories[i] = "run-" + dealii::Utilities::int_to_string(++number, 3);
+      while (taken.count(directories[i]) > 0);
   return directories;
 }
 

@@ -1,6 +1,7 @@
 #include "rollwave/study/study_table.h"
 
 #include "rollwave/adapt/marking.h"
+#include "rollwave/base/text.h"
 
 #include <algorithm>
 #include <cctype>
@@ -15,11 +16,7 @@ namespace rollwave {
 namespace {
 
 std::string text_of(const std::optional<double>& value, int digits) {
-  std::ostringstream text;
-  text.precision(digits);
-  if (value)
-    text << *value;
-  return value ? text.str() : "-";
+  return value ? rounded(*value, digits) : "-";
 }
 
 /// @p text at the right of a column, and two blanks behind it.
@@ -184,33 +181,21 @@ std::string StudyTable::tex() const {
 }
 
 void print_study_notes(std::ostream& out, const Study& study) {
-  std::vector<std::pair<unsigned int, std::string>> failures, shortfalls, remarks, shared;
-  std::string reference;
+  std::vector<std::pair<unsigned int, std::string>> failures, shortfalls, remarks;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (const auto& made = study.runs[run]) {
       if (!made->failure.empty())
         (made->is_solved() ? shortfalls : failures).emplace_back(run, made->failure);
       for (const std::string& remark : made->remarks)
         remarks.emplace_back(run, remark);
-      if (!made->shared.empty())
-        shared.emplace_back(run, "its seconds leave out what it shares with the run before: " +
-                                     made->shared);
-      reference = made->reference.empty() ? reference : made->reference;
     }
-  const unsigned int n_runs = study.runs.size();
-  const bool is_certified =
-      any(study, [](const RunPlan& plan) { return plan.parameters.certificate.error_bound; });
-  out << "\nsteps: of the contact iteration"
-      << (study.has_true_errors ? "; error: relative, in the energy norm" : "")
-      << (is_certified ? "; certified: guaranteed bound of the relative error in the energy norm"
-                       : "")
-      << ". The rest is in study.csv.\n";
-  if (!reference.empty())
-    out << "Errors against " << reference << ".\n";
-  print_once(out, "Not solved", failures, n_runs);
-  print_once(out, "Falls short", shortfalls, n_runs);
-  print_once(out, "Note", remarks, n_runs);
-  print_once(out, "Note", shared, n_runs);
+  out << "\nsteps: of the contact iteration; error, certified: true and bounded, relative in the "
+         "energy norm.\nThe rest is in study.csv; its column shared says what seconds leave out.\n";
+  if (study.has("error_relative"))
+    out << "Errors against the semi-analytic solution.\n";
+  print_once(out, "Not solved", failures, study.runs.size());
+  print_once(out, "Falls short", shortfalls, study.runs.size());
+  print_once(out, "Note", remarks, study.runs.size());
   report_orders(out, study);
 }
 

@@ -29,6 +29,9 @@ double to_number(const std::string& text);
 /// @p text as a whole number from @p least to @p most. @throws std::invalid_argument otherwise.
 unsigned int to_count(const std::string& text, unsigned int least, unsigned int most);
 
+/// @p number with at most this number of digits.
+std::string rounded(double number, int digits);
+
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
 
