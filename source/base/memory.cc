@@ -6,8 +6,6 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -92,10 +90,6 @@ void require_memory(double bytes, const std::string& purpose, MPI_Comm communica
   const std::string first_lack = first_text(communicator, lack.str());
   if (!first_lack.empty())
     throw NotEnoughMemory(first_lack);
-}
-
-void release_freed_memory() {
-  malloc_trim(0);
 }
 
 double peak_memory_mib() {

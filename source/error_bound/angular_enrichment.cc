@@ -19,23 +19,25 @@ namespace rollwave {
 
 using namespace dealii;
 
+namespace {
+
 /// A cell of a column with its faces towards the hub and the surface.
-struct AngularEnrichment::Cell {
+struct ColumnCell {
   using Face = std::pair<types::global_dof_index, types::global_dof_index>; ///< of its vertices
   Face lower, upper;
   double length, r_begin, r_end;
-  unsigned int number;      ///< of its n values: that of an own active cell, or behind those
-  int edge;                 ///< of RingSpace::surface_faces(), -1 inside
-  bool is_cut;              ///< another process has the next cell, which may be of the column
-  std::vector<double> load; ///< on the way to other processes
+  unsigned int number;   ///< of an own active cell
+  int edge;              ///< of RingSpace::surface_faces(), -1 inside
+  bool is_cut;           ///< another process has the next cell, which may be of the column
+  std::vector<double> g; ///< its load, that is the derivatives of D(tau) by it, until it is known
 
   template <class Archive>
   void serialize(Archive& archive, unsigned int) {
-    archive& lower& upper& length& r_begin& r_end& number& edge& is_cut& load;
+    archive& lower& upper& length& r_begin& r_end& number& edge& is_cut& g;
   }
 };
 
-namespace {
+using Column = std::vector<ColumnCell*>;
 
 /// What is nearest to @p wanted among the m with lambda + m P >= 0 for sure: coefficients over
 /// Bernstein's polynomials B_k are positive, those of P are (-1)^(p + k) binomial(p, k) (2 p +
@@ -52,80 +54,20 @@ double nearest_mode(const EdgePressure& pressure, unsigned int degree, double wa
   return nearest;
 }
 
-} // namespace
-
-Polynomials::Polynomial<double> AngularEnrichment::mode(unsigned int degree) {
-  return Polynomials::Legendre(degree);
+/// Whether another process has what is beyond a face.
+bool is_foreign_beyond(const DoFHandler<2>::active_cell_iterator& cell, unsigned int face) {
+  const auto beyond = neighbours(cell, face);
+  return !beyond.empty() && !beyond.front()->is_locally_owned();
 }
 
-AngularEnrichment::AngularEnrichment(const RingSpace& space, const Scene& scene,
-                                     RadialShapesOfMesh& shapes, const FieldVector& potential,
-                                     const std::vector<EdgePressure>& pressures,
-                                     const ForceIntegral* force)
-    : n(space.dof_handler().get_fe().degree + 1),
-      values(n * space.dof_handler().get_triangulation().n_active_cells()) {
-  assemble_loads(space, scene, shapes, potential, pressures, force);
-  const auto is_foreign = [](const auto& cell, unsigned int face) {
-    const auto beyond = neighbours(cell, face);
-    return !beyond.empty() && !beyond.front()->is_locally_owned();
-  };
-  std::vector<Cell> cells;
-  for (const auto& cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned()) {
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      const auto edge = space.surface_face(cell);
-      cells.push_back({{cell->vertex_dof_index(0, 0), cell->vertex_dof_index(2, 0)},
-                       {cell->vertex_dof_index(1, 0), cell->vertex_dof_index(3, 0)},
-                       high[1] - low[1],
-                       low[0],
-                       high[0],
-                       cell->active_cell_index(),
-                       edge ? int(*edge) : -1,
-                       is_foreign(cell, 0) || is_foreign(cell, 1),
-                       {}});
-    }
-  const std::size_t n_own = values.size();
-  if (!is_alone(space.communicator()))
-    add_cells_of_others(space, cells);
-  for (const auto& column : columns_of(cells))
-    if (std::any_of(column.begin(), column.end(),
-                    [&](const Cell* cell) { return n * cell->number < n_own; }))
-      solve_column(scene, shapes, pressures, column);
-}
-
-/// The columns that cells form, from the inside out.
-std::vector<AngularEnrichment::Column>
-AngularEnrichment::columns_of(const std::vector<Cell>& cells) {
-  // By a vertex that one cell alone has at this corner.
-  std::unordered_map<types::global_dof_index, const Cell*> above(cells.size());
-  for (const Cell& cell : cells)
-    above[cell.lower.first] = &cell;
-  const auto next_of = [&](const Cell& cell) {
-    const auto next = above.find(cell.upper.first);
-    return next != above.end() && next->second->lower == cell.upper ? next->second : nullptr;
-  };
-  std::vector<bool> is_next(cells.size());
-  for (const Cell& cell : cells)
-    if (const Cell* const next = next_of(cell))
-      is_next[next - cells.data()] = true;
-  std::vector<Column> columns;
-  for (const Cell& cell : cells)
-    if (!is_next[&cell - cells.data()]) {
-      columns.emplace_back();
-      for (const Cell* next = &cell; next; next = next_of(*next))
-        columns.back().push_back(next);
-    }
-  return columns;
-}
-
-/// The derivatives of D(tau) by the values of g.
-void AngularEnrichment::assemble_loads(const RingSpace& space, const Scene& scene,
-                                       RadialShapesOfMesh& shapes, const FieldVector& potential,
-                                       const std::vector<EdgePressure>& pressures,
-                                       const ForceIntegral* force) {
-  const unsigned int degree = n - 1;
+/// The own cells with their loads.
+std::vector<ColumnCell> make_cells(const RingSpace& space, const Scene& scene,
+                                   RadialShapesOfMesh& shapes, const FieldVector& potential,
+                                   const std::vector<EdgePressure>& pressures,
+                                   const ForceIntegral* force) {
+  const unsigned int degree = space.dof_handler().get_fe().degree, n = degree + 1;
   const QGauss<1> gauss(degree + 2);
-  const auto legendre = mode(degree), beta = legendre.primitive();
+  const auto legendre = angular_mode(degree), beta = legendre.primitive();
   const auto lagrange = lobatto_lagrange(degree);
   std::vector<double> bubble_of(n); // int beta L_j dt
   for (unsigned int j = 0; j < n; ++j)
@@ -135,13 +77,14 @@ void AngularEnrichment::assemble_loads(const RingSpace& space, const Scene& scen
     }
   LexicographicDofs dofs(space.dof_handler());
   std::vector<double> psi_bubble(n), force_on_line(n);
+  std::vector<ColumnCell> cells;
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const double length = high[1] - low[1];
     const RadialShapes& radial = shapes.on(low[0], high[0]);
-    double* const load = &values[n * cell->active_cell_index()];
+    std::vector<double> load(n);
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < n; ++i) {
       psi_bubble[i] = 0;
@@ -160,40 +103,66 @@ void AngularEnrichment::assemble_loads(const RingSpace& space, const Scene& scen
         load[i] += weight * force_on_line[i];
     }
     const auto edge = space.surface_face(cell);
-    if (!edge || !(pressures[*edge].mean > 0))
-      continue;
-    const double begin = space.surface_faces()[*edge].begin;
-    for (unsigned int q = 0; q < gauss.size(); ++q) {
-      const double t = gauss.point(q)[0];
-      load[degree] -= length * gauss.weight(q) * legendre.value(t) * scene.road(begin + t * length);
-    }
+    if (edge && pressures[*edge].mean > 0)
+      for (unsigned int q = 0; q < gauss.size(); ++q) {
+        const double t = gauss.point(q)[0], z = space.surface_faces()[*edge].begin + t * length;
+        load[degree] -= length * gauss.weight(q) * legendre.value(t) * scene.road(z);
+      }
+    cells.push_back({{cell->vertex_dof_index(0, 0), cell->vertex_dof_index(2, 0)},
+                     {cell->vertex_dof_index(1, 0), cell->vertex_dof_index(3, 0)},
+                     length,
+                     low[0],
+                     high[0],
+                     cell->active_cell_index(),
+                     edge ? int(*edge) : -1,
+                     is_foreign_beyond(cell, 0) || is_foreign_beyond(cell, 1),
+                     std::move(load)});
   }
+  return cells;
 }
 
-/// Adds what other processes have of columns that several share, with the loads.
-void AngularEnrichment::add_cells_of_others(const RingSpace& space, std::vector<Cell>& cells) {
-  std::vector<Cell> shared;
+/// The columns that cells form, from the inside out.
+std::vector<Column> columns_of(std::vector<ColumnCell>& cells) {
+  // By a vertex that one cell alone has at this corner.
+  std::unordered_map<types::global_dof_index, ColumnCell*> above(cells.size());
+  for (ColumnCell& cell : cells)
+    above[cell.lower.first] = &cell;
+  const auto next_of = [&](ColumnCell& cell) {
+    const auto next = above.find(cell.upper.first);
+    return next != above.end() && next->second->lower == cell.upper ? next->second : nullptr;
+  };
+  std::vector<bool> is_next(cells.size());
+  for (ColumnCell& cell : cells)
+    if (ColumnCell* const next = next_of(cell))
+      is_next[next - cells.data()] = true;
+  std::vector<Column> columns;
+  for (ColumnCell& cell : cells)
+    if (!is_next[&cell - cells.data()]) {
+      columns.emplace_back();
+      for (ColumnCell* next = &cell; next; next = next_of(*next))
+        columns.back().push_back(next);
+    }
+  return columns;
+}
+
+/// Adds what other processes have of columns that several share.
+void add_cells_of_others(MPI_Comm communicator, std::vector<ColumnCell>& cells) {
+  std::vector<ColumnCell> shared;
   for (const Column& column : columns_of(cells))
     if (column.front()->is_cut || column.back()->is_cut)
-      for (const Cell* const cell : column) {
+      for (const ColumnCell* const cell : column)
         shared.push_back(*cell);
-        shared.back().load.assign(on_cell(cell->number), on_cell(cell->number) + n);
-      }
-  const auto of_all = Utilities::MPI::all_gather(space.communicator(), shared);
+  const auto of_all = Utilities::MPI::all_gather(communicator, shared);
   for (unsigned int process = 0; process < of_all.size(); ++process)
-    for (Cell cell : of_all[process])
-      if (process != process_number(space.communicator())) {
-        cell.number = values.size() / n;
-        values.insert(values.end(), cell.load.begin(), cell.load.end());
-        cells.push_back(std::move(cell));
-      }
+    if (process != process_number(communicator))
+      cells.insert(cells.end(), of_all[process].begin(), of_all[process].end());
 }
 
 /// Minimises int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz, by half, less the loads.
-void AngularEnrichment::solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
-                                     const std::vector<EdgePressure>& pressures,
-                                     const Column& column) {
-  const int width = n - 1, stride = n, rows = column.size() * width + 1, n_rhs = 2;
+void solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
+                  const std::vector<EdgePressure>& pressures, const Column& column) {
+  const int stride = column.front()->g.size(), width = stride - 1, rows = column.size() * width + 1,
+            n_rhs = 2;
   const double length = column.front()->length;
   const double beta_square = 1. / (2. * (2 * width + 3) * (2 * width - 1)); // int beta^2 dt
   std::vector<double> band(rows * stride); // LAPACK's storage of the lower triangle
@@ -202,7 +171,7 @@ void AngularEnrichment::solve_column(const Scene& scene, RadialShapesOfMesh& sha
     const int begin = c * width;
     const ShapeProducts& products = shapes.on(column[c]->r_begin, column[c]->r_end).products;
     for (int i = 0; i < stride; ++i) {
-      g[begin + i] += values[n * column[c]->number + i];
+      g[begin + i] += column[c]->g[i];
       for (int k = i; k < stride; ++k)
         band[(begin + i) * stride + k - i] +=
             length *
@@ -233,7 +202,30 @@ void AngularEnrichment::solve_column(const Scene& scene, RadialShapesOfMesh& sha
     g[i] += factor * g[rows + i];
   g[rows - 1] = outermost;
   for (unsigned int c = 0; c < column.size(); ++c)
-    std::copy_n(&g[c * width], n, &values[n * column[c]->number]);
+    std::copy_n(&g[c * width], stride, column[c]->g.begin());
+}
+
+} // namespace
+
+Polynomials::Polynomial<double> angular_mode(unsigned int degree) {
+  return Polynomials::Legendre(degree);
+}
+
+std::vector<double> angular_enrichment(const RingSpace& space, const Scene& scene,
+                                       RadialShapesOfMesh& shapes, const FieldVector& potential,
+                                       const std::vector<EdgePressure>& pressures,
+                                       const ForceIntegral* force) {
+  std::vector<ColumnCell> cells = make_cells(space, scene, shapes, potential, pressures, force);
+  const std::size_t n_own = cells.size();
+  if (!is_alone(space.communicator()))
+    add_cells_of_others(space.communicator(), cells);
+  for (const Column& column : columns_of(cells))
+    solve_column(scene, shapes, pressures, column);
+  const unsigned int n = space.dof_handler().get_fe().degree + 1;
+  std::vector<double> values(n * space.dof_handler().get_triangulation().n_active_cells());
+  for (std::size_t i = 0; i < n_own; ++i)
+    std::copy(cells[i].g.begin(), cells[i].g.end(), values.begin() + n * cells[i].number);
+  return values;
 }
 
 } // namespace rollwave

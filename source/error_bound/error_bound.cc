@@ -29,14 +29,14 @@ struct AdmissibleFields {
   const AdmissibleTrace& trace;
   const std::vector<EdgePressure>& pressures; ///< lambda without the bubbles' share
   const FieldVector& potential;
-  const AngularEnrichment& bubbles;
-  const ForceIntegral* force; ///< nullptr without force
+  const std::vector<double>& bubbles; ///< of angular_enrichment()
+  const ForceIntegral* force;         ///< nullptr without force
 };
 
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
   std::vector<double> value, derivative; ///< the latter d/dt
-  double bubble;                         ///< of AngularEnrichment: beta
+  double bubble;                         ///< of angular_enrichment(): beta
   double mode;                           ///< P
 
   AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
@@ -74,7 +74,7 @@ public:
                 RadialShapesOfMesh& shapes)
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
-        beta(AngularEnrichment::mode(n - 1).primitive()),
+        beta(angular_mode(n - 1).primitive()),
         rule(fields.force ? fields.force->rule() : QGauss<1>(n + 1)), along_road(n + 5),
         dofs(space.dof_handler()), u(n * n), psi(n * n), line_u(n), line_u_z(n), line_psi(n),
         line_psi_z(n) {
@@ -94,7 +94,7 @@ public:
       u[i] = fields.displacement(of_cell[i]);
       psi[i] = fields.potential(of_cell[i]);
     }
-    g = fields.bubbles.on_cell(number);
+    g = &fields.bubbles[n * number];
     if (const auto edge = space.surface_face(cell))
       return at_surface(*edge);
     Integrals sums;
@@ -249,7 +249,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const ForceIntegral* const uneven = force && !force->is_number() ? force : nullptr;
   const FieldVector potential = stress_function.solve(scene, pressures, uneven, work);
   RadialShapesOfMesh& shapes = stress_function.shapes();
-  const AngularEnrichment bubbles(space, scene, shapes, potential, pressures, uneven);
+  const std::vector<double> bubbles =
+      angular_enrichment(space, scene, shapes, potential, pressures, uneven);
   auto [integrals, cell_bounds] =
       integrate(space, scene, {displacement, trace, pressures, potential, bubbles, force}, shapes);
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,

@@ -176,7 +176,7 @@ StressFunction::StressFunction(const RingSpace& space, const Scene& scene, Solve
   else
     solver = std::make_unique<SparseCholesky>(space);
   const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
-  solver->set_matrix(scene, make_constraints(space, scene, no_pressures), products(), work);
+  solver->set_matrix(make_constraints(space, scene, no_pressures), products(), work);
 }
 
 RadialProducts StressFunction::products() {

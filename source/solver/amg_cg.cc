@@ -2,7 +2,6 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
-#include "rollwave/scene/scene.h"
 
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
@@ -17,23 +16,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-/**
- * Along an axis of stretched elements couplings are strong, and multigrid shall coarsen along that
- * axis only. Where it is that of z, s = alpha (h_r / h_z)^2 >> 1, neighbours across the corner of
- * linear elements couple half as strongly as those in z on the surface, and a quarter inside, which
- * a threshold above a half leaves out. On other cells it would leave out too much.
- */
-double strong_threshold(const RingSpace& space, const Scene& scene) {
-  double most = 0;
-  for (const auto& cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned()) {
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      const double height = high[0] - low[0], length = high[1] - low[1];
-      most = std::max(most, scene.alpha(cell->center()[0]) * std::pow(height / length, 2));
-    }
-  return Utilities::MPI::max(most, space.communicator()) > 10 ? 0.55 : 0.35;
-}
 
 void clear(const IndexSet& dofs, FieldVector& field) {
   for (const auto dof : dofs)
@@ -55,10 +37,9 @@ struct Unpinned {
 
 } // namespace
 
-void AmgCg::set_matrix(const Scene& scene, const AffineConstraints<double>& constraints,
-                       const RadialProducts& radial, Work& /*work*/) {
+void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const RadialProducts& radial,
+                       Work& /*work*/) {
   preconditioner.reset();
-  threshold = strong_threshold(space, scene);
   const TrilinosWrappers::SparsityPattern pattern = space.matrix_pattern(constraints);
   // Measured: 59 bytes with linear elements, 41 with quadratic ones.
   constexpr double bytes_per_entry = 60;
@@ -72,14 +53,9 @@ void AmgCg::set_matrix(const Scene& scene, const AffineConstraints<double>& cons
 }
 
 void AmgCg::pin(const IndexSet& dofs) {
-  pinned = dofs;
-  // Each node by which the preconditioner is behind costs one or two iterations, a new
-  // preconditioner about twenty.
-  constexpr unsigned int most_behind = 2;
-  if (preconditioner && dofs.n_elements() + pinned_in_preconditioner.n_elements() -
-                                2 * (dofs & pinned_in_preconditioner).n_elements() >
-                            most_behind)
+  if (dofs != pinned)
     preconditioner.reset();
+  pinned = dofs;
 }
 
 FieldVector AmgCg::solve(const FieldVector& rhs, Work& work) {
@@ -94,10 +70,7 @@ FieldVector AmgCg::solve(const FieldVector& rhs, Work& work) {
 const BoomerAmg& AmgCg::multigrid(Work& work) {
   if (!preconditioner) {
     const Work::Phase phase(work, "preconditioner");
-    // The hierarchy before and the assembly leave free memory in pieces.
-    release_freed_memory();
-    preconditioner.emplace(stiffness, pinned, space.communicator(), threshold);
-    pinned_in_preconditioner = pinned;
+    preconditioner.emplace(stiffness, pinned, space.communicator());
     ++work.preconditioners;
   }
   return *preconditioner;

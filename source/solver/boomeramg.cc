@@ -96,7 +96,7 @@ struct BoomerAmg::Hypre {
 };
 
 BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, const IndexSet& pinned,
-                     MPI_Comm communicator, double threshold)
+                     MPI_Comm communicator)
     : hypre([&] {
         static const int is_started = HYPRE_Init(); // once in a process
         (void)is_started;
@@ -110,7 +110,10 @@ BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, const IndexSe
   HYPRE_BoomerAMGSetCoarsenType(cycle, ruge_stueben);
   HYPRE_BoomerAMGSetInterpType(cycle, classical);
   HYPRE_BoomerAMGSetPMaxElmts(cycle, 0); // nothing cut off
-  HYPRE_BoomerAMGSetStrongThreshold(cycle, threshold);
+  // Along an axis of stretched elements couplings are strong, and multigrid shall coarsen along
+  // that axis only. Where it is that of z, neighbours across the corner of linear elements couple
+  // half as strongly as those in z on the surface, and a quarter inside.
+  HYPRE_BoomerAMGSetStrongThreshold(cycle, 0.55);
   HYPRE_BoomerAMGSetMaxRowSum(cycle, 1); // no row is left out as dominated by its diagonal
   HYPRE_BoomerAMGSetRelaxOrder(cycle, 0);
   constexpr int forward = 13, backward = 14, symmetric = 6; // Gauss-Seidel

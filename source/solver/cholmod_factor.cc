@@ -1,9 +1,9 @@
 #include "rollwave/solver/cholmod_factor.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/base/memory.h"
 
 #include <cholmod.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <string>
@@ -65,7 +65,7 @@ struct CholmodFactor::Cholmod {
   /// would wait for every page of it again.
   void release() const {
     if (saves_memory)
-      release_freed_memory();
+      malloc_trim(0);
   }
 
   void check(const std::string& step) const {
@@ -79,6 +79,14 @@ struct CholmodFactor::Cholmod {
     if (common.status < 0)
       throw NotSolved("the " + step + " of the system matrix failed in CHOLMOD, status " +
                       std::to_string(common.status));
+  }
+
+  /// With L or its transpose: cholmod_solve() would make two more copies of a large vector.
+  void solve_triangle(decltype(cholmod_super_lsolve)* solve, std::vector<double>& values) {
+    std::vector<double> workspace(factor->maxesize);
+    cholmod_dense x = view(values), e = view(workspace);
+    solve(factor, &x, &e, &common);
+    check("solution");
   }
 
   static cholmod_dense view(std::vector<double>& values) {
@@ -134,21 +142,13 @@ std::vector<double> CholmodFactor::multiply(std::vector<double> x) const {
   return product;
 }
 
-// cholmod_solve() would make two more copies of a large vector.
-
 std::vector<double> CholmodFactor::forward(std::vector<double> b) {
-  std::vector<double> workspace(cholmod->factor->maxesize);
-  cholmod_dense x = Cholmod::view(b), e = Cholmod::view(workspace);
-  cholmod_super_lsolve(cholmod->factor, &x, &e, &cholmod->common);
-  cholmod->check("solution");
+  cholmod->solve_triangle(cholmod_super_lsolve, b);
   return b;
 }
 
 std::vector<double> CholmodFactor::backward(std::vector<double> y) {
-  std::vector<double> workspace(cholmod->factor->maxesize);
-  cholmod_dense x = Cholmod::view(y), e = Cholmod::view(workspace);
-  cholmod_super_ltsolve(cholmod->factor, &x, &e, &cholmod->common);
-  cholmod->check("solution");
+  cholmod->solve_triangle(cholmod_super_ltsolve, y);
   return y;
 }
 

@@ -18,7 +18,7 @@ void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVecto
     return;
   const Work::Phase phase(work, "assembly");
   angular_velocity.reset();
-  system.set_matrix(scene, space.constraints(), stiffness_products(space, scene), work);
+  system.set_matrix(space.constraints(), stiffness_products(space, scene), work);
   ++work.stiffness_assemblies;
   angular_velocity = scene.angular_velocity;
 }

@@ -70,8 +70,7 @@ void SparseCholesky::factorise(Work& work) {
   ++work.factorisations;
 }
 
-void SparseCholesky::set_matrix(const Scene& /*scene*/,
-                                const AffineConstraints<double>& constraints,
+void SparseCholesky::set_matrix(const AffineConstraints<double>& constraints,
                                 const RadialProducts& radial, Work& work) {
   number_unknowns(constraints);
   analyse(assemble(constraints, radial), work);

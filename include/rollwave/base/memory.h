@@ -27,9 +27,6 @@ double memory_of_control_groups(const std::filesystem::path& groups,
 void require_memory(double bytes, const std::string& purpose,
                     MPI_Comm communicator = MPI_COMM_SELF);
 
-/// Returns to the system what this process has freed but still holds.
-void release_freed_memory();
-
 /// The largest amount of memory this process has held so far, in MiB.
 double peak_memory_mib();
 

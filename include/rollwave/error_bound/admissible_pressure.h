@@ -24,7 +24,7 @@ struct EdgePressure {
  *
  * Each has the mean of the discrete pressure and, but for degree 1, the difference of its values at
  * the vertices, at most 2 mean, for degree 2 3 mean: as far as lambda >= 0, for degree 2 with the
- * multiple of AngularEnrichment::mode() that makes it 3 t^2 mean at the limit.
+ * multiple of angular_mode() that makes it 3 t^2 mean at the limit.
  *
  * Where contact ends at a vertex, half of this node's force, more or less, would lie on the edge
  * outside, under the gap. Let the pressure go on, in the straight line through the last two nodes

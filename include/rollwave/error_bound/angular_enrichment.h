@@ -6,6 +6,8 @@
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
 
+#include <deal.II/base/polynomial.h>
+
 #include <vector>
 
 namespace rollwave {
@@ -26,35 +28,18 @@ struct Scene;
  * g is continuous in a column, free on the hub, zero where the column ends inside of the ring, and
  * b m on r = b, where the pressure becomes lambda + m P. g and m maximise D(tau) with psi as it is
  * and lambda + m P >= 0.
+ *
+ * @param pressures one for each of RingSpace::surface_faces()
+ * @param force nullptr when G is a function of r, which does no work with them
+ * @return g at the radial Gauss-Lobatto points of each active cell, one cell after another
  */
-class AngularEnrichment {
-public:
-  /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param force nullptr when G is a function of r, which does no work with them
-  AngularEnrichment(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
-                    const FieldVector& potential, const std::vector<EdgePressure>& pressures,
-                    const ForceIntegral* force);
+std::vector<double> angular_enrichment(const RingSpace& space, const Scene& scene,
+                                       RadialShapesOfMesh& shapes, const FieldVector& potential,
+                                       const std::vector<EdgePressure>& pressures,
+                                       const ForceIntegral* force);
 
-  /// g at the radial Gauss-Lobatto points of an own cell.
-  const double* on_cell(unsigned int active_cell) const { return &values[n * active_cell]; }
-
-  /// P for elements of a degree.
-  static dealii::Polynomials::Polynomial<double> mode(unsigned int degree);
-
-private:
-  struct Cell;
-  using Column = std::vector<const Cell*>;
-  void assemble_loads(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes,
-                      const FieldVector& potential, const std::vector<EdgePressure>& pressures,
-                      const ForceIntegral* force);
-  void add_cells_of_others(const RingSpace& space, std::vector<Cell>& cells);
-  static std::vector<Column> columns_of(const std::vector<Cell>& cells);
-  void solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
-                    const std::vector<EdgePressure>& pressures, const Column& column);
-
-  unsigned int n;             ///< degree + 1
-  std::vector<double> values; ///< n for each active cell; the loads before the columns are solved
-};
+/// P for elements of a degree.
+dealii::Polynomials::Polynomial<double> angular_mode(unsigned int degree);
 
 } // namespace rollwave
 

@@ -23,7 +23,7 @@ class AmgCg : public SpdSolver {
 public:
   explicit AmgCg(const RingSpace& space) : space(space), pinned(space.dof_handler().n_dofs()) {}
 
-  void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+  void set_matrix(const dealii::AffineConstraints<double>& constraints,
                   const RadialProducts& radial, Work& work) override;
   FieldVector solve(const FieldVector& rhs, Work& work) override;
 
@@ -50,9 +50,7 @@ private:
   MpiSession mpi;
   dealii::TrilinosWrappers::SparseMatrix stiffness;
   dealii::IndexSet pinned;
-  double threshold = 0;                    ///< of couplings that are strong for the preconditioner
-  std::optional<BoomerAmg> preconditioner; ///< of the matrix, or nearly
-  dealii::IndexSet pinned_in_preconditioner;
+  std::optional<BoomerAmg> preconditioner; ///< of the matrix with these rows pinned
 };
 
 } // namespace rollwave

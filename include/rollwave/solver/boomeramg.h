@@ -19,10 +19,9 @@ namespace rollwave {
 class BoomerAmg {
 public:
   /// Of the rows and columns of @p pinned degrees of freedom the diagonal entry counts only.
-  /// @param threshold the least coupling over the largest of its row that counts as strong
   /// @throws NotSolved when the hierarchy cannot be made.
   BoomerAmg(const dealii::TrilinosWrappers::SparseMatrix& matrix, const dealii::IndexSet& pinned,
-            MPI_Comm communicator, double threshold);
+            MPI_Comm communicator);
   ~BoomerAmg();
   BoomerAmg(const BoomerAmg&) = delete;
   BoomerAmg& operator=(const BoomerAmg&) = delete;

@@ -16,7 +16,7 @@ public:
   explicit SparseCholesky(const RingSpace& space, const std::vector<SurfaceNode>& last = {})
       : space(space), last(last) {}
 
-  void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+  void set_matrix(const dealii::AffineConstraints<double>& constraints,
                   const RadialProducts& radial, Work& work) override;
   FieldVector solve(const FieldVector& rhs, Work& work) override;
 

@@ -6,8 +6,6 @@
 
 namespace rollwave {
 
-struct Scene;
-
 /// Linear problems with one symmetric positive definite matrix on a space, for the degrees of
 /// freedom that constraints leave.
 class SpdSolver {
@@ -18,7 +16,7 @@ public:
   /// dual form, in which couplings are as strong. Later calls must have the same @p constraints but
   /// for their inhomogeneities.
   /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
-  virtual void set_matrix(const Scene& scene, const dealii::AffineConstraints<double>& constraints,
+  virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
                           const RadialProducts& radial, Work& work) = 0;
 
   /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
