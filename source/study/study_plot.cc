@@ -112,7 +112,8 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
   unsigned int n_titles = panels[0].slopes.size(), longest = 0;
   for (const Curve& curve : panels[0].curves) {
     n_titles += curve.marks.empty() ? 1 : 2;
-    longest = std::max<unsigned int>(longest, curve.title.size());
+    longest = std::max<unsigned int>(longest,
+                                     curve.title.size() + (curve.marks.empty() ? 0 : 10));
   }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
   const unsigned int width = is_single ? 760 : 1000;
