@@ -1,5 +1,7 @@
 #include "rollwave/output/surface_vtu.h"
 
+#include "rollwave/scene/units.h"
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/reference_cell.h>
