@@ -210,7 +210,8 @@ TEST_F(Program, SaysWhatWasReachedWhenItCannotSolve) {
 TEST_F(Program, LeavesTheOldFileWhenTheNewOneCannotBeWritten) {
   ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0);
   const std::string before = read("solution.vtu");
-  ASSERT_EQ(shell("ulimit -f 8; $rollwave " + scene + " --set Mesh/Degree=1").exit_code, 3);
+  const Outcome full = shell("ulimit -f 8; $rollwave " + scene + " --set Mesh/Degree=1");
+  ASSERT_EQ(full.exit_code, 3) << full.text;
   EXPECT_EQ(read("solution.vtu"), before);
 }
 
