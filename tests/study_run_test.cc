@@ -67,6 +67,17 @@ TEST(StudyRecord, IsATableForSpreadsheets) {
             "\"rough, \"\"or so\"\" | ζ\",,0.1,0.3333333333333333,,\n");
 }
 
+TEST(StudyRecord, HasNoHalfWidthWhereThereAreTwoPatches) {
+  const Parameters parameters =
+      parameters_of({"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)",
+                     "Mesh/Radial cells=6", "Mesh/Angular cells=180"});
+  StudyRun run;
+  run.figures = figures_of(simulate(make_scene(parameters), parameters).result);
+  EXPECT_EQ(run.figure("patches"), 2.);
+  EXPECT_FALSE(run.figure("half_width"));
+  EXPECT_GT(run.figure("stiffness_force"), run.figure("stiffness_vertical_load"));
+}
+
 class RepeatedStudy : public testing::Test {
 protected:
   RepeatedStudy() { fs::remove_all(directory); }

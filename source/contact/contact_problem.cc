@@ -2,6 +2,7 @@
 
 #include "rollwave/contact/active_set.h"
 #include "rollwave/contact/uzawa.h"
+#include "rollwave/scene/units.h"
 
 #include <cmath>
 

@@ -3,6 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,7 @@
 #include "rollwave/output/summary_json.h"
 #include "rollwave/output/surface_vtu.h"
 #include "rollwave/output/vtu.h"
+#include "rollwave/scene/units.h"
 
 #include <exception>
 #include <limits>

@@ -2,6 +2,7 @@
 
 #include "rollwave/output/surface_vtu.h"
 #include "rollwave/scene/road.h"
+#include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <cmath>

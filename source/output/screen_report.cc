@@ -2,6 +2,7 @@
 
 #include "rollwave/base/text.h"
 #include "rollwave/base/version.h"
+#include "rollwave/scene/units.h"
 
 #include <deal.II/base/table_handler.h>
 

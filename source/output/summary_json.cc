@@ -1,6 +1,7 @@
 #include "rollwave/output/summary_json.h"
 
 #include "rollwave/base/version.h"
+#include "rollwave/scene/units.h"
 
 #include <nlohmann/json.hpp>
 

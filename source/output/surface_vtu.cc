@@ -1,7 +1,10 @@
 #include "rollwave/output/surface_vtu.h"
 
+#include "rollwave/scene/units.h"
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/numbers.h>
+#include <deal.II/grid/reference_cell.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +26,7 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
   const std::vector<double>& angles = fields.front().second;
   const unsigned int n_fields = fields.size(), n_points = angles.size();
   DataOutBase::Patch<1, 2> patch;
+  patch.reference_cell = ReferenceCells::Line;
   patch.n_subdivisions = n_points - 1;
   patch.points_are_available = true; // behind the data
   patch.data.reinit(n_fields + 2, n_points);

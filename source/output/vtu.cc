@@ -1,5 +1,7 @@
 #include "rollwave/output/vtu.h"
 
+#include "rollwave/scene/units.h"
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>

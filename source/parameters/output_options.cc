@@ -3,6 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/declarations.h"
+#include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <map>

@@ -1,8 +1,8 @@
 #include "rollwave/run/remarks.h"
 
 #include "rollwave/base/text.h"
-#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/mesh/line_elements.h"
+#include "rollwave/mesh/ring_mesh.h"
 
 #include <boost/math/tools/minima.hpp>
 

@@ -1,5 +1,7 @@
 #include "rollwave/run/result.h"
 
+#include "rollwave/scene/units.h"
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>

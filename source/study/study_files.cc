@@ -2,6 +2,9 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/atomic_file.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/parameters/prm_reader.h"
+#include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
 #include "rollwave/study/study_table.h"
@@ -64,8 +67,10 @@ std::string title_of(const Study& study) {
   std::string title;
   for (const Setting& setting : read_settings(all, "parameters"))
     if (told_keys.count(setting.path()) > 0 && setting.value != "none")
-      title += (title.empty() ? "" : ", ") +
-               (setting.key == "Method" ? setting.value : told(setting, units_of(study)));
+      title += (title.empty() ? "" : ", ") + (setting.value == "uzawa" ? "Uzawa's method"
+                                              : setting.key == "Method"
+                                                  ? setting.value
+                                                  : told(setting, units_of(study)));
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 

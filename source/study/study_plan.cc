@@ -2,6 +2,7 @@
 
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/scene/units.h"
 
 #include <cctype>
 #include <sstream>

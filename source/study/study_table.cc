@@ -2,6 +2,7 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
+#include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <cctype>

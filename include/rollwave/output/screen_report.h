@@ -5,6 +5,7 @@
 #include "rollwave/output/output_directory.h"
 #include "rollwave/run/result.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/scene/units.h"
 
 #include <iosfwd>
 
