@@ -9,9 +9,6 @@
 #include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/numerics/vector_tools_boundary.h>
 
 #include <algorithm>
@@ -63,18 +60,6 @@ std::vector<EdgeNode> gather_edges(const RingSpace& space) {
     return left.begin < right.begin;
   });
   return all;
-}
-
-/// The values of a field at nodes on every process.
-std::vector<double> values_at(const RingSpace& space, const std::vector<SurfaceNode>& nodes,
-                              const FieldVector& field) {
-  // A sum with zeros is exact in any order, so that all processes get the same digits.
-  std::vector<double> values(nodes.size());
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (field.in_local_range(nodes[i].dof))
-      values[i] = field(nodes[i].dof);
-  Utilities::MPI::sum(values, space.communicator(), values);
-  return values;
 }
 
 } // namespace
@@ -180,25 +165,20 @@ const std::vector<types::global_dof_index>& RingSpace::elimination_order() const
   return order;
 }
 
-TrilinosWrappers::SparsityPattern
-RingSpace::matrix_pattern(const AffineConstraints<double>& constraints) const {
-  DynamicSparsityPattern entries(handler.n_dofs(), handler.n_dofs(), relevant);
-  DoFTools::make_sparsity_pattern(handler, entries, constraints, /*keep_constrained_dofs=*/false);
-  const IndexSet& owned = handler.locally_owned_dofs();
-  if (!is_alone(communicator()))
-    SparsityTools::distribute_sparsity_pattern(entries, owned, communicator(), relevant);
-  TrilinosWrappers::SparsityPattern pattern;
-  pattern.reinit(owned, owned, entries, communicator());
-  return pattern;
-}
-
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
-  return values_at(*this, surface, field);
+  // A sum with zeros is exact in any order, so that all processes get the same digits.
+  std::vector<double> values(surface.size());
+  for (unsigned int i = 0; i < surface.size(); ++i)
+    if (field.in_local_range(surface[i].dof))
+      values[i] = field(surface[i].dof);
+  Utilities::MPI::sum(values, communicator(), values);
+  return values;
 }
 
 Vector<double> RingSpace::contact_values(const FieldVector& field) const {
-  const std::vector<double> values = values_at(*this, contact, field);
-  return Vector<double>(values.begin(), values.end());
+  const std::vector<double> values = surface_values(field);
+  const auto first = values.begin() + first_contact;
+  return Vector<double>(first, first + contact.size());
 }
 
 std::vector<DoFHandler<2>::active_cell_iterator>

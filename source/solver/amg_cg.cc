@@ -3,6 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -40,7 +41,12 @@ struct Unpinned {
 void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const RadialProducts& radial,
                        Work& /*work*/) {
   preconditioner.reset();
-  const TrilinosWrappers::SparsityPattern pattern = space.matrix_pattern(constraints);
+  const IndexSet& owned = space.dof_handler().locally_owned_dofs();
+  TrilinosWrappers::SparsityPattern pattern(owned, owned, space.relevant_dofs(),
+                                            space.communicator());
+  DoFTools::make_sparsity_pattern(space.dof_handler(), pattern, constraints,
+                                  /*keep_constrained_dofs=*/false);
+  pattern.compress();
   // Measured: 59 bytes with linear elements, 41 with quadratic ones.
   constexpr double bytes_per_entry = 60;
   require_memory(bytes_per_entry * pattern.trilinos_sparsity_pattern().NumMyNonzeros(),

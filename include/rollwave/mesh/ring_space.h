@@ -14,10 +14,6 @@
 #include <utility>
 #include <vector>
 
-namespace dealii::TrilinosWrappers {
-class SparsityPattern;
-}
-
 namespace rollwave {
 
 struct Scene;
@@ -104,11 +100,6 @@ public:
 
   /// dissect(), when first asked for. For one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
-
-  /// The pairs of degrees of freedom that meet in a cell, when those that the @p constraints tie to
-  /// others stand for these. Each process has the rows of its own.
-  dealii::TrilinosWrappers::SparsityPattern
-  matrix_pattern(const dealii::AffineConstraints<double>& constraints) const;
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
   /// next to them, and what constraints tie these to.
