@@ -3,7 +3,7 @@
 between "<!-- measured: NAME -->" and "<!-- end -->" in README.md and doc/, draws doc/pictures/.
 
 Usage, in the root of the repository: tests/measure.py [--rollwave build/rollwave] [NAME...]
-All names take some three minutes on two quiet cores.
+All names take some nine minutes on two quiet cores.
 """
 import argparse
 import csv
@@ -261,5 +261,5 @@ for measurement in (figures, orders, adaptive, extremes, wanted, phases, sweep, 
         fill(name, short)
         (root / 'doc/results' / f'{name}.md').write_text(
             f'# {name.capitalize()}\n\nWritten by `tests/measure.py {name}`, which runs\n\n```sh\n' +
-            '\n'.join(commands) + '\n```\n\n' + full)
+            '\n'.join(commands) + '\n```\n\n' + (short + '\n' if short != full else '') + full)
 shutil.rmtree(work)

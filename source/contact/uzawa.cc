@@ -45,6 +45,38 @@ std::string interruption_text(const ContactOptions& options,
   throw NotSolved(message.str());
 }
 
+/// @param rho in the user's unit
+std::string too_few_steps_text(const ContactOptions& options, double rho,
+                               const std::vector<ContactStep>& history) {
+  std::ostringstream message;
+  message << "Uzawa's method has not reached the tolerance " << options.tolerance << " after "
+          << options.most_steps << " steps with rho = " << rho << ": the residual is "
+          << history.back().residual << "; raise Contact/Most steps"
+          << (options.rho ? ", or let Contact/Rho be auto" : "");
+  return message.str();
+}
+
+/// p <- min(0, p - rho (u - phi)) for p = -lambda, with the nodal forces of it. The residual of the
+/// step is |change of p| / rho in the l2 norm.
+ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p,
+                    ContactSolution& solution) {
+  ContactStep step = {};
+  const Vector<double>& displacement = solution.state.displacement;
+  double violation_squared = 0;
+  for (unsigned int i = 0; i < problem.size(); ++i) {
+    const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
+    violation_squared += std::pow((next - p(i)) / rho, 2);
+    p(i) = next;
+    solution.state.force(i) = -problem.weight(i) * next;
+    step.active += next < 0;
+    step.changed += solution.active[i] != (next < 0);
+    solution.active[i] = next < 0;
+    step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
+  }
+  step.residual = std::sqrt(violation_squared);
+  return step;
+}
+
 } // namespace
 
 double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
@@ -102,25 +134,14 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
   double smallest = std::numeric_limits<double>::max();
   unsigned int steps_without_progress = 0;
   while (solution.history.size() < options.most_steps) {
-    ContactStep step = {};
-    double violation_squared = 0;
-    for (unsigned int i = 0; i < n; ++i) {
-      const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
-      violation_squared += std::pow((next - p(i)) / rho, 2);
-      p(i) = next;
-      force(i) = -problem.weight(i) * next;
-      step.active += next < 0;
-      step.changed += solution.active[i] != (next < 0);
-      solution.active[i] = next < 0;
-      step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
-    }
     Vector<double> change = displacement;
-    if (violation_squared > 0)
+    ContactStep step = project(problem, rho, p, solution);
+    const double violation = step.residual;
+    if (violation > 0)
       residual = solver.solve(none, solution.state, accuracy);
     change -= displacement;
 
     const double size = displacement.l2_norm();
-    const double violation = std::sqrt(violation_squared);
     const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
@@ -143,12 +164,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
       give_up(solver, problem, options, rho, solution.history.size(), smallest);
   }
-  std::ostringstream message;
-  message << "Uzawa's method has not reached the tolerance " << options.tolerance << " after "
-          << options.most_steps << " steps with rho = " << rho / problem.unit
-          << ": the residual is " << solution.history.back().residual
-          << "; raise Contact/Most steps" << (options.rho ? ", or let Contact/Rho be auto" : "");
-  throw NotSolved(message.str());
+  throw NotSolved(too_few_steps_text(options, rho / problem.unit, solution.history));
 }
 
 } // namespace rollwave

@@ -12,7 +12,7 @@
 
 namespace rollwave {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -95,6 +95,9 @@ bool Study::has(const std::string& name) const {
 
 std::vector<Figure> figures_of(const Result& result) {
   const auto& [mesh, patch] = std::tie(result.mesh, result.patch);
+  double contact_length = 0; // of the road under all patches
+  for (const ContactPatch& own : patch.patches)
+    contact_length += own.length;
   std::vector<Figure> figures = {
       {"degree", mesh.degree},
       {"cells", mesh.cells},
@@ -118,6 +121,7 @@ std::vector<Figure> figures_of(const Result& result) {
       {{"residual", result.residuals.largest()},
        {"round_off", result.residuals.round_off},
        {"patches", patch.patches.size()},
+       {"contact_length", contact_length, Quantity::length},
        {"stiffness_force", patch.stiffness.total, Quantity::stiffness},
        {"stiffness_vertical_load", patch.stiffness.vertical, Quantity::stiffness},
        {"stiffness_work_conjugate_load", patch.stiffness.work_conjugate, Quantity::stiffness}});
