@@ -12,16 +12,14 @@
 
 namespace rollwave {
 
-using Json = nlohmann::ordered_json;
-
 static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // These three are called by the library, which finds them by their names.
-static void to_json(Json& json, const Figure& figure) {
+static void to_json(nlohmann::json& json, const Figure& figure) {
   json = {figure.name, figure.value, figure.quantity}; // what is not a number becomes null
 }
-static void from_json(const Json& json, Figure& figure) {
-  const Json& value = json.at(1);
+static void from_json(const nlohmann::json& json, Figure& figure) {
+  const nlohmann::json& value = json.at(1);
   figure = Figure(json.at(0).get<std::string>(), value.is_null() ? none : value.get<double>(),
                   json.at(2).get<Quantity>());
 }
@@ -158,9 +156,9 @@ std::vector<std::pair<double, double>> pressure_of(const Result& result) {
 }
 
 std::string study_line(const RunPlan& plan, const StudyRun& run) {
-  Json json = run;
+  nlohmann::json json = run;
   json["settings"] = plan.identity;
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 std::vector<std::pair<std::map<std::string, std::string>, StudyRun>>
@@ -169,9 +167,9 @@ read_study_runs(const std::string& text) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     try {
-      const Json json = Json::parse(line);
+      const nlohmann::json json = nlohmann::json::parse(line);
       runs.emplace_back(json.at("settings"), json.get<StudyRun>());
-    } catch (const Json::exception&) {
+    } catch (const nlohmann::json::exception&) {
       // A line that is torn or of another kind.
     }
   return runs;
