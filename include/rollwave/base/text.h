@@ -7,7 +7,8 @@
 namespace rollwave {
 
 /// @p text for a message: at most 150 bytes of it; control characters, and in UTF-8 punctuation
-/// that looks like a blank or a minus sign, are named by their bytes, as in C2 A0 (in hexadecimal digits).
+/// that looks like a blank or a minus sign, are named by their bytes, as in C2 A0 (in hexadecimal
+/// digits).
 std::string printable(const std::string& text);
 
 /// printable(text) in quotation marks.
