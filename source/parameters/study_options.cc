@@ -23,12 +23,14 @@ constexpr unsigned int most_runs = 100000;
 std::vector<std::string> values_of(const std::string& text) {
   static const std::regex range(R"(([^:?]+):([^:/]+)([:/])([^:/]+))");
   constexpr unsigned int longest = 200; // regular expressions of the library recurse
-  std::smatch parts;
-  if (static const std::regex number(R"([-+.0-9eE ]+:[-+.0-9eE ]+)");
-      text.size() <= longest && std::regex_match(text, number))
+  if (text.size() > longest)
+    return {text};
+  static const std::regex two_numbers(R"([-+.0-9eE ]+:[-+.0-9eE ]+)");
+  if (std::regex_match(text, two_numbers))
     throw BadInput(in_quotes(text) +
                    " lacks a part: a range is first : last : step, or first : last / number");
-  if (text.size() > longest || !std::regex_match(text, parts, range))
+  std::smatch parts;
+  if (!std::regex_match(text, parts, range))
     return {text};
   const double first = to_number(trimmed(parts[1])), last = to_number(trimmed(parts[2]));
   const std::string third = trimmed(parts[4]);

@@ -138,15 +138,6 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-/// @p most of the numbers below @p n, evenly chosen, or all.
-std::vector<unsigned int> evenly(unsigned int n, unsigned int most) {
-  const unsigned int n_chosen = std::min(n, most);
-  std::vector<unsigned int> chosen;
-  for (unsigned int i = 0; i < n_chosen; ++i)
-    chosen.push_back(n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1));
-  return chosen;
-}
-
 /// About as many runs as can be told apart: of the last key some values, of the others at most
 /// three.
 std::vector<unsigned int> runs_to_show(const Study& study) {
@@ -221,9 +212,11 @@ std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
     if (!x.empty())
       add("study-curves.svg", curves(study, x));
     const Panel panel = profiles(study);
-    const std::string n_shown = std::to_string(panel.curves.size());
+    const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
     add("study-profiles.svg", {panel},
-        "; " + n_shown + " of " + std::to_string(study.runs.size()) + " runs");
+        n_shown == n_runs
+            ? ""
+            : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
   }
   if (study.has("error_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :

@@ -90,21 +90,28 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
 }
 
 /// Evenly chosen curves, where there are more than can be told apart.
-std::vector<Curve> distinct(std::vector<Curve> curves) {
+std::vector<Curve> distinct(const std::vector<Curve>& curves) {
   std::vector<Curve> chosen;
-  const std::size_t n = curves.size(), n_chosen = std::min<std::size_t>(n, most_curves);
-  for (std::size_t i = 0; i < n_chosen; ++i)
-    chosen.push_back(std::move(curves[n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1)]));
+  for (const unsigned int i : evenly(curves.size(), most_curves))
+    chosen.push_back(curves[i]);
   return chosen;
 }
 
 } // namespace
 
+std::vector<unsigned int> evenly(unsigned int n, unsigned int most) {
+  const unsigned int n_chosen = std::min(n, most);
+  std::vector<unsigned int> chosen;
+  for (unsigned int i = 0; i < n_chosen; ++i)
+    chosen.push_back(n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1));
+  return chosen;
+}
+
 Picture plot_panels(std::string title, std::vector<Panel> panels) {
   if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves)
     title += "; " + std::to_string(most_curves) + " of " + std::to_string(n_curves) + " curves";
   for (Panel& panel : panels)
-    panel.curves = distinct(std::move(panel.curves));
+    panel.curves = distinct(panel.curves);
   std::ostringstream script;
   script.precision(9);
   script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
@@ -112,8 +119,7 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
   unsigned int n_titles = panels[0].slopes.size(), longest = 0;
   for (const Curve& curve : panels[0].curves) {
     n_titles += curve.marks.empty() ? 1 : 2;
-    longest = std::max<unsigned int>(longest,
-                                     curve.title.size() + (curve.marks.empty() ? 0 : 10));
+    longest = std::max<unsigned int>(longest, curve.title.size() + (curve.marks.empty() ? 0 : 10));
   }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
   const unsigned int width = is_single ? 760 : 1000;

@@ -26,6 +26,9 @@ struct Panel {
   std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
 };
 
+/// @p most of the numbers below @p n, evenly chosen, or all.
+std::vector<unsigned int> evenly(unsigned int n, unsigned int most);
+
 /// Panels beside and below each other. They have the same curves, with one legend below them; of
 /// more curves than can be told apart, evenly chosen ones, which the title says.
 Picture plot_panels(std::string title, std::vector<Panel> panels);
