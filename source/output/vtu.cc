@@ -22,6 +22,9 @@ namespace {
 
 using Patch = DataOutBase::Patch<2>;
 
+/// The patches of cells take several times the memory of the mesh, so that the file has pieces.
+constexpr std::size_t cells_in_piece = 50000;
+
 using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
                                       DataComponentInterpretation::DataComponentInterpretation>>;
 
@@ -34,7 +37,8 @@ public:
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
                update_quadrature_points | update_values | update_gradients),
-        u(element.n_dofs_per_cell()), gradients(element.n_dofs_per_cell()) {}
+        u(element.n_dofs_per_cell()), gradients(element.n_dofs_per_cell()),
+        n_rows(field_names(solution).size() + 2) {}
 
   Patch patch(const DoFHandler<2>::active_cell_iterator& cell, unsigned int index) {
     values.reinit(cell);
@@ -50,7 +54,7 @@ public:
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(field_names(solution).size() + 2, u.size());
+    patch.data.reinit(n_rows, u.size());
     for (unsigned int i = 0; i < u.size(); ++i) {
       const unsigned int node = numbering[i];
       const double r = values.quadrature_point(node)[0], z = values.quadrature_point(node)[1];
@@ -68,7 +72,7 @@ public:
       add_vector(u[node] * length);
       if (solution.certificate)
         add(bound);
-      add_vector((r + u[node]) * length); // behind the data the places of the points
+      add_vector((r + u[node]) * length);
     }
     for (const unsigned int vertex : cell->vertex_indices())
       patch.vertices[vertex] = cell->vertex(vertex);
@@ -106,6 +110,7 @@ private:
   FEValues<2> values;
   std::vector<double> u;
   std::vector<Tensor<1, 2>> gradients;
+  const unsigned int n_rows; ///< fields, and behind them the places of the points
 };
 
 DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
@@ -146,11 +151,18 @@ void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind ki
     DataOutBase::write_vtu_header(out, flags);
     write_field_data(out, solution);
     std::vector<Patch> patches;
+    const auto write_piece = [&] {
+      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
+                                  DeformedCells::vectors(solution), flags, out);
+      patches.clear();
+    };
     for (const auto& cell : solution.space->dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned()) {
+        if (patches.size() == cells_in_piece)
+          write_piece();
         patches.push_back(cells.patch(cell, patches.size()));
-    DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
-                                DeformedCells::vectors(solution), flags, out);
+      }
+    write_piece();
     DataOutBase::write_vtu_footer(out);
   } catch (const StandardExceptions::ExcIO&) {
     // The stream remembers its failure for its owner, who knows the file's name.
