@@ -52,7 +52,7 @@ double contact_seconds(const Scene& scene, const Parameters& parameters) {
   const Discretisation ring(scene, parameters); // whose order of elimination is yet to be found
   Work work;
   DirectSolver solver(ring.space);
-  solver.turn_to(scene, {}, work);
+  solver.set_problem(scene, {}, work);
   {
     const Work::Phase phase(work, "contact");
     const auto contact = active_set(solver, make_contact_problem(ring.space, scene), 100);

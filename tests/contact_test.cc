@@ -27,7 +27,7 @@ public:
   DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
       : stiffness(stiffness), load(load) {}
 
-  void turn_to(const Scene&, const std::optional<FieldVector>&, Work&) override {}
+  void set_problem(const Scene&, const std::optional<FieldVector>&, Work&) override {}
   double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
     const unsigned int n = load.size();
     FullMatrix<double> matrix(n, n);
@@ -88,7 +88,7 @@ struct FullCircle {
                                   "Mesh/Angular cells=12"})),
         scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
         solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
-    solver.turn_to(scene, {}, work);
+    solver.set_problem(scene, {}, work);
   }
 
   Parameters parameters;
@@ -128,7 +128,7 @@ struct Prepared {
       : scene(make_scene(parameters)), ring(scene, parameters),
         load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
         solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
-    solver.turn_to(scene, load, work);
+    solver.set_problem(scene, load, work);
   }
 
   Scene scene;

@@ -160,7 +160,7 @@ protected:
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
         load(assemble_load(ring.space, scene)), solver(ring.space) {
-    solver.turn_to(scene, load, work);
+    solver.set_problem(scene, load, work);
   }
 
   const Parameters parameters;

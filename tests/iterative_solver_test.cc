@@ -115,8 +115,8 @@ protected:
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
         space(*adaptive.space), load(assemble_load(space, scene)), direct(space), iterative(space) {
-    direct.turn_to(scene, load, direct_work);
-    iterative.turn_to(scene, load, iterative_work);
+    direct.set_problem(scene, load, direct_work);
+    iterative.set_problem(scene, load, iterative_work);
   }
 
   /// Random displacements on the pinned nodes, random forces on the others.
@@ -191,7 +191,7 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
 
   Work work;
   IterativeSolver fresh(space);
-  fresh.turn_to(scene, load, work);
+  fresh.set_problem(scene, load, work);
   fresh.solve(pinned, state, 1e-11);
   EXPECT_LE(both, work.linear_iterations + 2);
 }
@@ -200,7 +200,7 @@ TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
   Work work;
   const std::optional<FieldVector> no_load;
   IterativeSolver solver(space);
-  solver.turn_to(scene, no_load, work);
+  solver.set_problem(scene, no_load, work);
   const unsigned int m = space.contact_nodes().size();
   ContactState state = random_state(std::vector<bool>(m, true));
   solver.solve(std::vector<bool>(m, true), state, 1e-11);

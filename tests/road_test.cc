@@ -51,9 +51,12 @@ TEST(Road, DerivativesAreThoseOfItsShape) {
     for (const double x : {0.1, -0.3, 0.5}) {
       EXPECT_NEAR(road.slope(x), (road.displacement(x + h) - road.displacement(x - h)) / (2 * h),
                   1e-8);
-      EXPECT_NEAR(road.lift(x),
+      EXPECT_NEAR(road.distance_derivative(x),
                   (at(0.8 + h).displacement(x) - at(0.8 - h).displacement(x)) / (2 * h), 1e-8);
-      EXPECT_NEAR(road.lift_slope(x), (at(0.8 + h).lift(x) - at(0.8 - h).lift(x)) / (2 * h), 1e-8);
+      EXPECT_NEAR(road.second_distance_derivative(x),
+                  (at(0.8 + h).distance_derivative(x) - at(0.8 - h).distance_derivative(x)) /
+                      (2 * h),
+                  1e-8);
     }
   }
 }

@@ -50,7 +50,7 @@ public:
   double cell_term(const CellField& u) const;
   double edge_term(const SpaceCell& cell, const CellField& u);
   double contact_term(const CellField& u, const SurfaceFace& face, const SideValues& pressure,
-                      bool is_judged, double negligible_gap) const;
+                      bool is_partly_free, double negligible_gap) const;
 
 private:
   std::vector<double> points_of(double begin, double end) const {
@@ -190,9 +190,9 @@ double ResidualTerms::edge_term(const SpaceCell& cell, const CellField& u) {
 }
 
 /// What is wrong at an edge on r = b, @p pressure given at its nodes.
-/// @param is_judged whether the edge may touch the road, but not with all of its nodes
+/// @param is_partly_free whether the edge may touch the road, but not with all of its nodes
 double ResidualTerms::contact_term(const CellField& u, const SurfaceFace& face,
-                                   const SideValues& pressure, bool is_judged,
+                                   const SideValues& pressure, bool is_partly_free,
                                    double negligible_gap) const {
   const double b = scene.outer_radius, h_r = u.size[0], h_z = u.size[1];
   const double resistance = lengths_of(u).both() / h_r;
@@ -206,7 +206,7 @@ double ResidualTerms::contact_term(const CellField& u, const SurfaceFace& face,
     const double imbalance = b * (u.sum(ends.first[1], inside.value[q]) / h_r + lambda);
     square += resistance * weight * imbalance * imbalance;
     const double z = face.begin + (face.end - face.begin) * gauss.point(q)[0];
-    if (!is_judged || z < scene.zone_begin || z > scene.zone_end)
+    if (!is_partly_free || z < scene.zone_begin || z > scene.zone_end)
       continue;
     const double gap = scene.road(z) - u.sum(ends.value[1], inside.value[q]);
     // The point may be an active node, where the gap is of either sign.
@@ -232,10 +232,11 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
                                        const ContactSolution& contact, const FieldVector& field) {
   // What linear solvers and Uzawa's method leave at active nodes is not the mesh's error.
   double negligible_gap = 0;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    negligible_gap = std::max(negligible_gap, contact.state.displacement(i) - problem.road(i));
+  for (const double gap : problem.gaps(contact.state.displacement))
+    negligible_gap = std::max(negligible_gap, -gap);
   negligible_gap += wanted_residual * contact.state.displacement.linfty_norm();
 
+  const Vector<double> pressures = problem.pressures(contact.state.force);
   ResidualTerms terms(space, scene, field);
   std::vector<double> indicators(space.dof_handler().get_triangulation().n_active_cells());
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
@@ -249,7 +250,7 @@ std::vector<double> residual_indicator(const RingSpace& space, const Scene& scen
       unsigned int n_active = 0, n_contact = 0;
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
         if (const auto node = space.contact_number(face.nodes[k])) {
-          pressure[k] = contact.state.force(*node) / problem.weight(*node);
+          pressure[k] = pressures(*node);
           n_active += contact.active[*node];
           ++n_contact;
         }

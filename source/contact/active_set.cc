@@ -28,30 +28,28 @@ unsigned int count_changes(const std::vector<bool>& active, const std::vector<bo
   return count;
 }
 
-ContactStep judge(const ContactProblem& problem, const ContactSolution& solution, double residual,
-                  std::vector<bool>& next) {
+/// What is wrong at a state that the equations hold for up to @p residual, and the set to take @p
+/// next.
+ContactStep check_conditions(const ContactProblem& problem, const ContactSolution& solution,
+                             double residual, std::vector<bool>& next) {
   const auto& [displacement, force] = solution.state;
-  double highest_pressure = 0;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    highest_pressure = std::max(highest_pressure, std::abs(force(i)) / problem.weight(i));
-  const double least_pressure = -std::max(round_off, pressure_error * residual) * highest_pressure;
-  const double most_penetration =
-      std::max(round_off, displacement_error * residual) * displacement.linfty_norm();
+  const Vector<double> gap = problem.gaps(displacement), pressure = problem.pressures(force);
+  const double least_pressure =
+      -std::max(round_off, pressure_error * residual) * pressure.linfty_norm();
+  const double least_gap =
+      -std::max(round_off, displacement_error * residual) * displacement.linfty_norm();
 
   ContactStep step = {};
   next = solution.active;
-  for (unsigned int i = 0; i < problem.size(); ++i) {
-    const double penetration = displacement(i) - problem.road(i);
-    const double pressure = force(i) / problem.weight(i);
+  for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i]) {
       ++step.active;
-      step.lowest_pressure = std::min(step.lowest_pressure, pressure);
-      next[i] = pressure >= least_pressure;
+      step.lowest_pressure = std::min(step.lowest_pressure, pressure(i));
+      next[i] = pressure(i) >= least_pressure;
     } else {
-      step.penetration = std::max(step.penetration, penetration);
-      next[i] = penetration > most_penetration;
+      step.penetration = std::max(step.penetration, -gap(i));
+      next[i] = gap(i) < least_gap;
     }
-  }
   step.changed = count_changes(solution.active, next);
   return step;
 }
@@ -60,6 +58,15 @@ ContactStep judge(const ContactProblem& problem, const ContactSolution& solution
 void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next) {
   const auto first = std::mismatch(active.begin(), active.end(), next.begin()).first;
   std::copy(first + 1, active.end(), next.begin() + (first + 1 - active.begin()));
+}
+
+/// Puts the active nodes on the road, and takes the forces off the others.
+void pin(const ContactProblem& problem, ContactSolution& solution) {
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    if (solution.active[i])
+      solution.state.displacement(i) = problem.road(i);
+    else
+      solution.state.force(i) = 0;
 }
 
 } // namespace
@@ -72,42 +79,33 @@ ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& pr
     solution.active[i] = start(i) > 0;
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
-
   bool changes_one_by_one = false;
   std::set<std::vector<bool>> visited;
   double accuracy = loose_accuracy;
   for (;;) {
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      if (solution.active[i])
-        solution.state.displacement(i) = problem.road(i);
-      else
-        solution.state.force(i) = 0;
-    double residual = solver.solve(solution.active, solution.state, accuracy);
-
+    pin(problem, solution);
+    const double residual = solver.solve(solution.active, solution.state, accuracy);
     std::vector<bool> next;
-    solution.history.push_back(judge(problem, solution, residual, next));
+    solution.history.push_back(check_conditions(problem, solution, residual, next));
     ContactStep& step = solution.history.back();
-    const bool is_loose = accuracy > final_accuracy && residual > final_accuracy;
-    if (step.changed == 0 && is_loose) {
+    const bool is_last = step.changed == 0,
+               is_repeated =
+                   !is_last && !changes_one_by_one && !visited.insert(solution.active).second,
+               is_loose = accuracy > final_accuracy && residual > final_accuracy;
+    if (is_loose && (is_last || is_repeated)) {
+      // The signs of a loose solve have led here; those of an accurate one may lead on.
       accuracy = final_accuracy;
-      residual = solver.solve(solution.active, solution.state, accuracy);
-      step = judge(problem, solution, residual, next);
+      visited.clear();
+      solution.history.pop_back();
+      continue;
     }
-    if (step.changed == 0)
+    if (is_last)
       return solution;
     if (solution.history.size() >= most_steps)
       throw NotSolved("the active set method has not ended after " + std::to_string(most_steps) +
                       " steps: " + std::to_string(step.changed) +
                       " nodes still change; raise Contact/Most steps");
-
-    if (!changes_one_by_one && !visited.insert(solution.active).second) {
-      if (is_loose) {
-        // The signs of a loose solve have led here; those of an accurate one may lead on.
-        accuracy = final_accuracy;
-        visited.clear();
-        solution.history.pop_back();
-        continue;
-      }
+    if (is_repeated) {
       changes_one_by_one = true;
       solution.remark = "the active set repeated itself; from then on one node changed at a time";
     }

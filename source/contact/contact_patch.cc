@@ -16,7 +16,8 @@ namespace {
 
 /// The contact nodes in the order of their angles.
 struct Profile {
-  std::vector<double> angle, gap, pressure;
+  std::vector<double> angle;
+  Vector<double> gap, pressure;
 };
 
 /// A stretch of contact: its first and last node, and how many nodes without contact on each side
@@ -146,13 +147,11 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
   resultants.force = loads.total;
   resultants.vertical_load = loads.vertical;
   resultants.work_conjugate_load = loads.work_conjugate;
-  Profile profile;
+  Profile profile = {{}, problem.gaps(displacement), problem.pressures(force)};
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     resultants.active_nodes += solution.active[i];
     profile.angle.push_back(nodes[i].angle);
-    profile.gap.push_back(problem.road(i) - displacement(i));
-    profile.pressure.push_back(force(i) / problem.weight(i));
-    resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure.back());
+    resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure[i]);
   }
   const EndLaw law(scene, problem.shape);
   for (const Stretch& stretch :

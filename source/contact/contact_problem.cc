@@ -8,6 +8,25 @@
 
 namespace rollwave {
 
+dealii::Vector<double> ContactProblem::gaps(const dealii::Vector<double>& displacement) const {
+  dealii::Vector<double> gap = road;
+  gap -= displacement;
+  return gap;
+}
+
+dealii::Vector<double> ContactProblem::pressures(const dealii::Vector<double>& force) const {
+  dealii::Vector<double> pressure = force;
+  for (unsigned int i = 0; i < size(); ++i)
+    pressure(i) /= weight(i);
+  return pressure;
+}
+
+dealii::Vector<double> ContactProblem::forces(const dealii::Vector<double>& pressure) const {
+  dealii::Vector<double> force = pressure;
+  force.scale(weight);
+  return force;
+}
+
 ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) {
   const auto& nodes = space.contact_nodes();
   ContactProblem problem;
@@ -31,7 +50,7 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
       continue;
     loads.total += force(i);
     loads.vertical += force(i) * std::cos(problem.x[i]);
-    loads.work_conjugate += force(i) * problem.shape.lift(problem.x[i]);
+    loads.work_conjugate += force(i) * problem.shape.distance_derivative(problem.x[i]);
   }
   return loads;
 }

@@ -25,6 +25,37 @@ namespace {
   throw BadValue("Road", "Load", text.str());
 }
 
+/// Distances between which the wanted one lies.
+struct Bracket {
+  double near, far;
+  bool is_near_tried = false, is_far_tried = false;
+
+  explicit Bracket(const Scene& scene)
+      : near(scene.least_distance), // the inside of a drum ends where its axis is the axle's
+        far(scene.road_curvature < 0 ? -1 / scene.road_curvature
+                                     : std::numeric_limits<double>::infinity()) {}
+
+  /// @param excess of the load at a distance over the wanted one
+  void narrow(double distance, double excess) {
+    (excess > 0 ? near : far) = distance;
+    (excess > 0 ? is_near_tried : is_far_tried) = true;
+  }
+
+  /// Whether both ends are neighbouring numbers, between which the load changes by more than the
+  /// tolerance.
+  bool is_exhausted() const { return is_far_tried && far - near <= 4e-16 * near; }
+
+  /// The distance to try next: that of Newton's method, @p newton, unless it leads out of the
+  /// bracket or is not a number.
+  double next(double newton) const {
+    if (near < newton && newton < far)
+      return newton;
+    if (!is_near_tried && !std::isnan(newton))
+      return near;
+    return std::isfinite(far) ? (near + far) / 2 : 2 * near;
+  }
+};
+
 } // namespace
 
 Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& problem,
@@ -33,7 +64,8 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& probl
   moved.force = 0;
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      moved.displacement(i) = solution.state.displacement(i) + problem.shape.lift(problem.x[i]);
+      moved.displacement(i) =
+          solution.state.displacement(i) + problem.shape.distance_derivative(problem.x[i]);
   solver.solve(solution.active, moved, final_accuracy);
   Vector<double> change = solution.state.force;
   change -= moved.force;
@@ -42,7 +74,8 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& probl
       change(i) = 0;
   Loads stiffness = loads_of(problem, change);
   for (unsigned int i = 0; i < problem.size(); ++i)
-    stiffness.work_conjugate -= solution.state.force(i) * problem.shape.lift_slope(problem.x[i]);
+    stiffness.work_conjugate -=
+        solution.state.force(i) * problem.shape.second_distance_derivative(problem.x[i]);
   return stiffness;
 }
 
@@ -51,45 +84,28 @@ RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, 
   constexpr double tolerance = 1e-10;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
-  double near = scene.least_distance; // the inside of a drum ends where its axis is the axle's
-  double far = scene.road_curvature < 0 ? -1 / scene.road_curvature
-                                        : std::numeric_limits<double>::infinity();
-  bool is_near_tried = false, is_far_tried = false;
+  Bracket bracket(scene);
   RoadPosition road = {scene.road_distance, start};
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
     const ContactProblem problem = make_contact_problem(space, with_distance(scene, road.distance));
     const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);
-    const double load = loads_of(problem, contact.state.force).of(kind);
-    road.pressure = contact.state.force;
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      road.pressure(i) /= problem.weight(i);
-    if (std::abs(load - wanted) <= tolerance * wanted)
+    road.pressure = problem.pressures(contact.state.force);
+    const double excess = loads_of(problem, contact.state.force).of(kind) - wanted;
+    if (std::abs(excess) <= tolerance * wanted)
       return road;
-    if (load > wanted) {
-      near = road.distance;
-      is_near_tried = true;
-    } else if (road.distance == scene.least_distance)
-      refuse_load(scene, load);
-    else {
-      far = road.distance;
-      is_far_tried = true;
-    }
-    if (is_far_tried && far - near <= 4e-16 * near)
-      return road; // between neighbouring numbers the load changes by more than the tolerance
-
-    const double stiffness = load > 0 ? contact_stiffness(solver, problem, contact).of(kind) : 0;
-    const double newton = stiffness > 0 ? road.distance + (load - wanted) / stiffness : near;
-    if (near < newton && newton < far)
-      road.distance = newton;
-    else if (!is_near_tried && stiffness > 0)
-      road.distance = near;
-    else
-      road.distance = std::isfinite(far) ? (near + far) / 2 : 2 * near;
+    if (excess < 0 && road.distance == scene.least_distance)
+      refuse_load(scene, wanted + excess);
+    bracket.narrow(road.distance, excess);
+    if (bracket.is_exhausted())
+      return road;
+    const double stiffness = contact_stiffness(solver, problem, contact).of(kind);
+    road.distance = bracket.next(stiffness > 0 ? road.distance + excess / stiffness
+                                               : std::numeric_limits<double>::quiet_NaN());
   }
   std::ostringstream text;
   text << "no distance was found for Road/Load = " << wanted * scene.units.of(Quantity::force)
-       << ": after " << most_trials << " trials it is between " << near * scene.units.length
-       << " and " << far * scene.units.length;
+       << ": after " << most_trials << " trials it is between " << bracket.near * scene.units.length
+       << " and " << bracket.far * scene.units.length;
   throw NotSolved(text.str());
 }
 

@@ -67,12 +67,13 @@ ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p
     const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
     violation_squared += std::pow((next - p(i)) / rho, 2);
     p(i) = next;
-    solution.state.force(i) = -problem.weight(i) * next;
     step.active += next < 0;
     step.changed += solution.active[i] != (next < 0);
     solution.active[i] = next < 0;
     step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
   }
+  solution.state.force = problem.forces(p);
+  solution.state.force *= -1;
   step.residual = std::sqrt(violation_squared);
   return step;
 }
@@ -88,8 +89,7 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
 
   double compliance = 0;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
-    Vector<double> force = pressure;
-    force.scale(problem.weight);
+    const Vector<double> force = problem.forces(pressure);
     // The quotient below errs by the square of this.
     const Vector<double> response = solver.response(force, 1e-6);
     double work = 0, norm_squared = 0, largest = 0;
@@ -123,10 +123,11 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
   displacement.reinit(n);
   force.reinit(n);
   Vector<double> p(n);
-  for (unsigned int i = 0; i < start.size(); ++i) {
-    p(i) = -start(i);
-    force(i) = problem.weight(i) * start(i);
-    solution.active[i] = start(i) > 0;
+  if (start.size() > 0) {
+    p.equ(-1, start);
+    force = problem.forces(start);
+    for (unsigned int i = 0; i < n; ++i)
+      solution.active[i] = start(i) > 0;
   }
   double accuracy = loose_accuracy;
   double residual = solver.solve(none, solution.state, accuracy);

@@ -158,51 +158,74 @@ void add_cells_of_others(MPI_Comm communicator, std::vector<ColumnCell>& cells) 
       cells.insert(cells.end(), of_all[process].begin(), of_all[process].end());
 }
 
-/// Minimises int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz, by half, less the loads.
-void solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
-                  const std::vector<EdgePressure>& pressures, const Column& column) {
-  const int stride = column.front()->g.size(), width = stride - 1, rows = column.size() * width + 1,
-            n_rhs = 2;
-  const double length = column.front()->length;
-  const double beta_square = 1. / (2. * (2 * width + 3) * (2 * width - 1)); // int beta^2 dt
-  std::vector<double> band(rows * stride); // LAPACK's storage of the lower triangle
-  std::vector<double> g(n_rhs * rows);     // for the loads, then for one at the outermost node
-  for (unsigned int c = 0; c < column.size(); ++c) {
-    const int begin = c * width;
-    const ShapeProducts& products = shapes.on(column[c]->r_begin, column[c]->r_end).products;
-    for (int i = 0; i < stride; ++i) {
-      g[begin + i] += column[c]->g[i];
-      for (int k = i; k < stride; ++k)
-        band[(begin + i) * stride + k - i] +=
-            length *
-            (length * length * beta_square * products.stiffness(i, k) + products.mass(i, k));
+/// The banded system of the nodes of a column, the least of
+///
+///     1/2 (int (h_z beta g_s)^2 ds dz + int (P g)^2 / r dr dz) - loads,
+///
+/// with two right-hand sides: the loads, and a load of 1 on the outermost node.
+struct ColumnSystem {
+  static constexpr int n_rhs = 2;
+  const int width, rows;
+  std::vector<double> band; ///< LAPACK's storage of the lower triangle, width + 1 entries a column
+  std::vector<double> g;
+
+  ColumnSystem(RadialShapesOfMesh& shapes, const Column& column)
+      : width(column.front()->g.size() - 1), rows(column.size() * width + 1),
+        band(rows * (width + 1)), g(n_rhs * rows) {
+    const double length = column.front()->length;
+    const double beta_square = 1. / (2. * (2 * width + 3) * (2 * width - 1)); // int beta^2 dt
+    for (unsigned int c = 0; c < column.size(); ++c) {
+      const ShapeProducts& products = shapes.on(column[c]->r_begin, column[c]->r_end).products;
+      for (int i = 0; i <= width; ++i) {
+        const int row = c * width + i;
+        g[row] += column[c]->g[i];
+        for (int k = i; k <= width; ++k)
+          band[row * (width + 1) + k - i] +=
+              length *
+              (length * length * beta_square * products.stiffness(i, k) + products.mass(i, k));
+      }
     }
+    g[2 * rows - 1] = 1;
   }
-  g[2 * rows - 1] = 1;
-  if (column.front()->r_begin != scene.inner_radius) {
-    std::fill_n(band.begin(), stride, 0.);
+
+  void fix_innermost() {
+    std::fill_n(band.begin(), width + 1, 0.);
     band[0] = 1;
     g[0] = 0;
   }
-  // By as much as rounding may make a matrix indefinite that is hardly definite.
-  constexpr double round_off = 1e-14;
-  for (int i = 0; i < rows; ++i)
-    band[i * stride] *= 1 + round_off;
-  int info = 0;
-  dpbsv_("L", &rows, &width, &n_rhs, band.data(), &stride, g.data(), &rows, &info);
-  AssertThrow(info == 0, ExcMessage("a banded matrix is not positive definite"));
 
+  void solve() {
+    // By as much as rounding may make a matrix indefinite that is hardly definite.
+    constexpr double round_off = 1e-14;
+    const int stride = width + 1;
+    for (int i = 0; i < rows; ++i)
+      band[i * stride] *= 1 + round_off;
+    int info = 0;
+    dpbsv_("L", &rows, &width, &n_rhs, band.data(), &stride, g.data(), &rows, &info);
+    AssertThrow(info == 0, ExcMessage("a banded matrix is not positive definite"));
+  }
+};
+
+/// Puts the g of the cells of a column in the place of their loads.
+void solve_column(const Scene& scene, RadialShapesOfMesh& shapes,
+                  const std::vector<EdgePressure>& pressures, const Column& column) {
+  ColumnSystem system(shapes, column);
+  if (column.front()->r_begin != scene.inner_radius)
+    system.fix_innermost();
+  system.solve();
   // Of a convex function the least with a bound of one value has that value at the bound, and the
   // rest as is best then.
+  std::vector<double>& g = system.g;
+  const int rows = system.rows, edge = column.back()->edge;
   const double b = scene.outer_radius;
-  const int edge = column.back()->edge;
-  const double outermost = edge < 0 ? 0 : b * nearest_mode(pressures[edge], width, g[rows - 1] / b);
+  const double outermost =
+      edge < 0 ? 0 : b * nearest_mode(pressures[edge], system.width, g[rows - 1] / b);
   const double factor = (outermost - g[rows - 1]) / g[2 * rows - 1];
   for (int i = 0; i < rows; ++i)
     g[i] += factor * g[rows + i];
   g[rows - 1] = outermost;
   for (unsigned int c = 0; c < column.size(); ++c)
-    std::copy_n(&g[c * width], stride, column[c]->g.begin());
+    std::copy_n(&g[c * system.width], column[c]->g.size(), column[c]->g.begin());
 }
 
 } // namespace

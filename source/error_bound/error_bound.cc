@@ -246,11 +246,11 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
   const AdmissibleTrace trace(space, scene, displacement, contact.active);
   const auto pressures = admissible_pressures(space, scene, contact);
-  const ForceIntegral* const uneven = force && !force->is_number() ? force : nullptr;
-  const FieldVector potential = stress_function.solve(scene, pressures, uneven, work);
+  const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
+  const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, work);
   RadialShapesOfMesh& shapes = stress_function.shapes();
   const std::vector<double> bubbles =
-      angular_enrichment(space, scene, shapes, potential, pressures, uneven);
+      angular_enrichment(space, scene, shapes, potential, pressures, nonuniform);
   auto [integrals, cell_bounds] =
       integrate(space, scene, {displacement, trace, pressures, potential, bubbles, force}, shapes);
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,

@@ -57,17 +57,17 @@ double missed_between_points(const RadialShapes& radial, const double* line) {
 } // namespace
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
-    : number(scene.uniform_force.has_value()),
-      angular(space.dof_handler().get_fe().degree + (number ? 2 : 3)),
+    : uniform(scene.uniform_force.has_value()),
+      angular(space.dof_handler().get_fe().degree + (uniform ? 2 : 3)),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
-  if (number)
-    take_number(space, *scene.uniform_force, shapes);
+  if (uniform)
+    take_uniform(space, *scene.uniform_force, shapes);
   else
     take_expression(space, scene, shapes);
 }
 
-void ForceIntegral::take_number(const RingSpace& space, double f, RadialShapesOfMesh& shapes) {
+void ForceIntegral::take_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes) {
   const double b = space.outer_radius();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -150,10 +150,10 @@ void ForceIntegral::on_line_at(unsigned int cell, double t, std::vector<double>&
   }
 }
 
-void ForceIntegral::add_load(const RingSpace& space, RadialShapesOfMesh& shapes, LoadKind kind,
+void ForceIntegral::add_load(const RingSpace& space, RadialShapesOfMesh& shapes, TestSpace kind,
                              const AffineConstraints<double>& constraints,
                              FieldVector& load) const {
-  const bool of_potential = kind == LoadKind::potential;
+  const bool of_potential = kind == TestSpace::potentials;
   const unsigned int n = space.dof_handler().get_fe().degree + 1;
   const auto lagrange_shapes = lobatto_lagrange(n - 1);
   FullMatrix<double> along_z(angular.size(), n);
@@ -189,7 +189,7 @@ void ForceIntegral::add_load(const RingSpace& space, RadialShapesOfMesh& shapes,
 FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
                           RadialShapesOfMesh& shapes) {
   FieldVector load = space.make_field();
-  force.add_load(space, shapes, ForceIntegral::LoadKind::displacement, space.constraints(), load);
+  force.add_load(space, shapes, ForceIntegral::TestSpace::displacements, space.constraints(), load);
   load.compress(VectorOperation::add);
   return load;
 }

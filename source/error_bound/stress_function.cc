@@ -196,7 +196,7 @@ FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePres
       constraints.distribute_local_to_global(no_load, dofs, load, matrix);
   });
   if (force)
-    force->add_load(space, radial, ForceIntegral::LoadKind::potential, constraints, load);
+    force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
   FieldVector potential = solver->solve(load, work);
   constraints.distribute(potential);

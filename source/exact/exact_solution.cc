@@ -2,7 +2,7 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/exact/bessel_modes.h"
-#include "rollwave/exact/pressure_collocation.h"
+#include "rollwave/exact/galerkin_pressure.h"
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/lac/vector.h>
@@ -29,9 +29,9 @@ double crossing_angle(const ExactScene& scene) {
 
 /// The zero of the defect, which falls from positive to negative: looked for within @p margin of
 /// @p guess, and further where it is not there.
-double find_half_width(const PressureCollocation& collocation, double guess, double margin,
+double find_half_width(const GalerkinPressure& galerkin, double guess, double margin,
                        double crossing) {
-  const auto defect = [&](double w) { return collocation.solve(w).defect; };
+  const auto defect = [&](double w) { return galerkin.solve(w).defect; };
   for (;; margin *= 10) {
     const double low = std::max(guess - margin, 0.02 * crossing);
     const double high = std::min(guess + margin, crossing);
@@ -58,28 +58,29 @@ ExactSolution without_contact(const ExactScene& scene) {
   return solution;
 }
 
-ExactSolution describe(const ExactScene& scene, const PressureCollocation& collocation, double w) {
-  const PressureCollocation::Trial trial = collocation.solve(w);
-  std::vector<double> coefficients(2 * collocation.n);
-  for (unsigned int i = 0; i < collocation.n; ++i)
+ExactSolution describe(const ExactScene& scene, const GalerkinPressure& galerkin, double w) {
+  const GalerkinPressure::Trial trial = galerkin.solve(w);
+  std::vector<double> coefficients(2 * galerkin.n);
+  for (unsigned int i = 0; i < galerkin.n; ++i)
     coefficients[2 * i] = trial.coefficients(i);
   ExactSolution solution = without_contact(scene);
   solution.half_width = w;
-  solution.end_exponent = collocation.nu - 0.5;
-  solution.pressure = {3 * numbers::PI / 2, w, collocation.nu, coefficients};
+  solution.end_exponent = galerkin.nu - 0.5;
+  solution.pressure = {3 * numbers::PI / 2, w, galerkin.nu, coefficients};
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   solution.force = b * solution.pressure.fourier_integral(0).real();
   solution.vertical_load = b * solution.pressure.fourier_integral(1).real();
   const Road road = scene.road();
   const auto contact_work = [&](const std::function<double(double)>& function) {
-    const Vector<double> moments = collocation.moments(w, function);
+    const Vector<double> moments = galerkin.moments(w, function);
     double sum = 0;
-    for (unsigned int i = 0; i < collocation.n; ++i)
+    for (unsigned int i = 0; i < galerkin.n; ++i)
       sum += b * w * trial.coefficients(i) * moments(i);
     return sum;
   };
-  solution.work_conjugate_load = contact_work([&](double x) { return road.lift(x); });
+  solution.work_conjugate_load =
+      contact_work([&](double x) { return road.distance_derivative(x); });
   const double pressure_times_road = contact_work([&](double x) { return road.displacement(x); });
 
   // (f, u) = a(u_f, u) = (f, u_f) - b int lambda u_f dz
@@ -87,7 +88,7 @@ ExactSolution describe(const ExactScene& scene, const PressureCollocation& collo
   const double work_of_f = work_of_f_alone - scene.contact_free_displacement(b) * solution.force;
   solution.norm_squared = work_of_f - pressure_times_road;
   solution.energy = solution.norm_squared / 2 - work_of_f;
-  if (collocation.nu < 0.5)
+  if (galerkin.nu < 0.5)
     solution.peak_pressure = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 400; ++i)
     solution.peak_pressure =
@@ -121,14 +122,14 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
   double guess = 0.75 * crossing, margin = 0.7 * crossing;
   std::vector<ExactSolution> sequence;
   for (const unsigned int n_terms : {12, 24, 48}) {
-    const PressureCollocation collocation(scene, modes, end_exponent, n_terms);
+    const GalerkinPressure galerkin(scene, modes, end_exponent, n_terms);
     double w = scene.zone_half_width;
     if (end_exponent > 0) {
-      w = find_half_width(collocation, guess, margin, crossing);
+      w = find_half_width(galerkin, guess, margin, crossing);
       margin = sequence.empty() ? 0.02 * crossing : std::abs(w - guess) + 1e-8 * w;
       guess = w;
     }
-    sequence.push_back(describe(scene, collocation, w));
+    sequence.push_back(describe(scene, galerkin, w));
   }
   const auto limit = [&](auto member) {
     return Limit(sequence[0].*member, sequence[1].*member, sequence[2].*member);
@@ -166,7 +167,7 @@ ExactSolution solve_exactly(const ExactScene& scene) {
   const bool is_slow = crossover > 0.3 * crossing;
   // A zone narrower than the free contact shows in a defect of the sign of a w that is too small.
   if (scene.zone_half_width < crossing &&
-      PressureCollocation(scene, modes, is_critical ? 2. / 3 : 0.5, 24)
+      GalerkinPressure(scene, modes, is_critical ? 2. / 3 : 0.5, 24)
               .solve(scene.zone_half_width)
               .defect > 0) {
     ExactSolution cut = solve_with_ends(scene, modes, is_critical ? -1. / 3 : -0.5);

@@ -94,9 +94,9 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
   Scene widest = scene;
   std::tie(widest.zone_begin, widest.zone_end) =
       scene.shared_zone.value_or(std::pair(scene.zone_begin, scene.zone_end));
-  turn_to(widest);
+  set_contact_zone(widest);
   candidates = contact;
-  turn_to(scene);
+  set_contact_zone(scene);
 }
 
 std::pair<double, double> RingSpace::diameters() const {
@@ -138,7 +138,7 @@ void RingSpace::find_surface(const Scene& scene) {
   }
 }
 
-void RingSpace::turn_to(const Scene& scene) {
+void RingSpace::set_contact_zone(const Scene& scene) {
   contact.clear();
   for (unsigned int i = 0; i < surface.size(); ++i)
     if (scene.is_in_zone(surface[i].angle)) {

@@ -18,9 +18,7 @@ Bounds certified_energy(const RunOptions& options, const RingSpace& space,
                         Work& work) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
-  Vector<double> start = solution.contact.state.force;
-  for (unsigned int i = 0; i < start.size(); ++i)
-    start(i) /= solution.problem.weight(i);
+  const Vector<double> start = solution.problem.pressures(solution.contact.state.force);
   const MeshSolution there = solve_on_mesh(moved, options, space, start, system, work);
   const CertifiedError error =
       certify(space, moved, there.problem, there.contact, there.displacement, system.force.get(),

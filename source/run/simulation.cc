@@ -172,49 +172,54 @@ void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution)
   solution.displacement = std::move(on_mesh.displacement);
 }
 
-/// Solves, indicates and refines until what @p options want is reached, or cannot be. @p
-/// solution has a mesh. @param is_kept whether what belongs to the last mesh will be used again
-void solve_and_refine(const RunOptions& options, Result before, MPI_Comm communicator, bool is_kept,
-                      Solution& solution) {
-  const auto& mesh = options.mesh;
+/// Indicates, certifies where that is due, and refines. False, and the mesh is the last one, when
+/// what is wanted is reached, or cannot be, or the user has interrupted it.
+bool refine_further(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
-  for (unsigned int cycle = 0;; ++cycle) {
-    if (!solution.space) {
-      const Work::Phase phase(result.work, "space");
-      solution.space =
-          std::make_unique<RingSpace>(*solution.triangulation, solution.scene, mesh.degree);
-    } else if (cycle == 0)
-      solution.space->turn_to(solution.scene);
-    if (cycle == 0 && is_interrupted(communicator))
-      throw Interrupted("interrupted before the first mesh was solved");
+  if (result.is_interrupted || result.cycles.size() > most_cycles(options.mesh) ||
+      !has_room_to_refine(*solution.triangulation, options.mesh.marking, most_cells(options)))
+    return false;
+  std::vector<double> indicators = indicate(options.mesh.indicator, on_mesh, solution);
+  if (is_certificate_due(options, result.cycles)) {
+    certify_solution(on_mesh, solution);
+    if (solution.certificate && options.mesh.indicator != Indicator::kelly)
+      indicators = larger_of(std::move(indicators), *solution.certificate);
+  }
+  if (is_reached(options, result))
+    return false;
+  result.is_interrupted = is_interrupted(solution.space->communicator());
+  if (result.is_interrupted)
+    result.shortfalls.push_back("interrupted after " + std::to_string(result.cycles.size()) +
+                                (result.cycles.size() == 1 ? " mesh" : " meshes"));
+  return !result.is_interrupted && refine(indicators, options, solution);
+}
 
-    MeshSolution on_mesh =
-        solve_on_mesh(solution.scene, options, *solution.space,
-                      carry_pressure(cycle == 0 ? before : result, solution.space->contact_nodes()),
-                      solution.system, result.work);
+/// Makes the space of the mesh, or takes that of another scene on it.
+void prepare_space(const RunOptions& options, Solution& solution) {
+  const Work::Phase phase(solution.result.work, "space");
+  if (solution.space)
+    solution.space->set_contact_zone(solution.scene);
+  else
+    solution.space =
+        std::make_unique<RingSpace>(*solution.triangulation, solution.scene, options.mesh.degree);
+}
+
+/// Solves, indicates and refines until what @p options want is reached, or cannot be. @p solution
+/// has a mesh, and perhaps the contact of a coarser one. @param is_kept whether what belongs to the
+/// last mesh will be used again
+void solve_and_refine(const RunOptions& options, bool is_kept, Solution& solution) {
+  Result& result = solution.result;
+  for (;;) {
+    prepare_space(options, solution);
+    MeshSolution on_mesh = solve_on_mesh(solution.scene, options, *solution.space,
+                                         carry_pressure(result, solution.space->contact_nodes()),
+                                         solution.system, result.work);
     solution.scene = on_mesh.scene;
     measure(*solution.space, on_mesh, result);
     if (!is_kept && !options.certificate.load_bounds)
       solution.system.stiffness.solver.reset(); // the certificate needs its memory
-
-    const bool is_last =
-        result.is_interrupted || cycle == most_cycles(options.mesh) ||
-        !has_room_to_refine(*solution.triangulation, mesh.marking, most_cells(options));
-    if (!is_last) {
-      std::vector<double> indicators = indicate(mesh.indicator, on_mesh, solution);
-      if (is_certificate_due(options, result.cycles)) {
-        certify_solution(on_mesh, solution);
-        if (solution.certificate && mesh.indicator != Indicator::kelly)
-          indicators = larger_of(std::move(indicators), *solution.certificate);
-      }
-      result.is_interrupted = !is_reached(options, result) && is_interrupted(communicator);
-      if (result.is_interrupted)
-        result.shortfalls.push_back("interrupted after " + std::to_string(cycle + 1) +
-                                    (cycle == 0 ? " mesh" : " meshes"));
-      if (!result.is_interrupted && !is_reached(options, result) &&
-          refine(indicators, options, solution))
-        continue;
-    }
+    if (refine_further(options, on_mesh, solution))
+      continue;
     finish(options, std::move(on_mesh), solution);
     if (!is_kept)
       solution.system = {};
@@ -231,23 +236,6 @@ bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
          count_unknowns(options.mesh) > least_unknowns;
 }
 
-/// The scene on a mesh with a sixteenth of the cells, for its pressure.
-RunOptions coarser(RunOptions options) {
-  auto& mesh = options.mesh;
-  for (int halving = 0; halving < 2; ++halving)
-    if (mesh.global_refinements > 0)
-      --mesh.global_refinements;
-    else {
-      mesh.radial_cells = (mesh.radial_cells + 1) / 2;
-      mesh.angular_cells = std::max(3u, (mesh.angular_cells + 1) / 2);
-    }
-  mesh.adaptive_cycles = 0;
-  mesh.wanted_relative_error = 0;
-  options.certificate = {};
-  options.certificate.error_bound = false;
-  return options;
-}
-
 } // namespace
 
 Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
@@ -260,13 +248,13 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
     solution.space = std::move(previous->space);
     solution.system = std::move(previous->system);
   }
-  Result before;
   if (begins_coarser(options, communicator))
     try {
       Solution start = simulate(scene, coarser(options), communicator);
       solution.scene = std::move(start.scene);
-      before = std::move(start.result);
-      solution.result.work = before.work;
+      solution.result.work = start.result.work;
+      solution.result.contact_rows = std::move(start.result.contact_rows);
+      solution.result.patch = std::move(start.result.patch);
     } catch (const Interrupted&) {
       throw;
     } catch (const BadInput&) {
@@ -279,8 +267,10 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
     solution.triangulation =
         make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
   }
+  if (is_interrupted(communicator))
+    throw Interrupted("interrupted before the first mesh was solved");
   try {
-    solve_and_refine(options, std::move(before), communicator, previous.has_value(), solution);
+    solve_and_refine(options, previous.has_value(), solution);
   } catch (const NotEnoughMemory& shortage) {
     if (solution.result.cycles.empty())
       throw;

@@ -54,30 +54,28 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
     if (const auto dof = space.contact_nodes()[i].dof; imbalance.in_local_range(dof))
       imbalance(dof) += force(i);
 
-  double penetration = 0, negative_pressure = 0, highest_pressure = 0;
-  double force_times_gap = 0, force_times_road = 0;
+  const Vector<double> gap = problem.gaps(displacement), pressure = problem.pressures(force);
+  double penetration = 0, negative_pressure = 0, force_times_gap = 0, force_times_road = 0;
   for (unsigned int i = 0; i < problem.size(); ++i) {
-    const double gap = problem.road(i) - displacement(i);
-    const double pressure = force(i) / problem.weight(i);
-    penetration = std::max(penetration, -gap);
-    negative_pressure = std::max(negative_pressure, -pressure);
-    highest_pressure = std::max(highest_pressure, std::abs(pressure));
-    force_times_gap += std::abs(force(i) * gap);
+    penetration = std::max(penetration, -gap(i));
+    negative_pressure = std::max(negative_pressure, -pressure(i));
+    force_times_gap += std::abs(force(i) * gap(i));
     force_times_road += std::abs(force(i) * problem.road(i));
   }
   const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
   return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
-          relative(negative_pressure, highest_pressure),
+          relative(negative_pressure, pressure.linfty_norm()),
           relative(force_times_gap, force_times_road), relative(round_off, forces)};
 }
 
 std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
                                          const ContactState& state) {
+  const Vector<double> gap = problem.gaps(state.displacement),
+                       pressure = problem.pressures(state.force);
   std::vector<ContactRow> rows;
   for (unsigned int i = 0; i < problem.size(); ++i)
-    rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i),
-                    problem.road(i) - state.displacement(i), state.force(i) / problem.weight(i),
-                    problem.weight(i)});
+    rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i), gap(i),
+                    pressure(i), problem.weight(i)});
   return rows;
 }
 
@@ -132,7 +130,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
   auto& solver = system.stiffness.solver;
   const std::string& remark = system.stiffness.remark;
   if (solver)
-    solver->turn_to(scene, system.load, work);
+    solver->set_problem(scene, system.load, work);
   else
     system.stiffness = choose_solver(options.solver.kind, space, scene, system.load, work);
   {

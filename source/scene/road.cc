@@ -41,14 +41,14 @@ double Road::slope(double x) const {
                 : (outer_radius + displacement(x)) * (1 + curvature * distance) * std::sin(x) / s;
 }
 
-double Road::lift(double x) const {
+double Road::distance_derivative(double x) const {
   const double s = root(x), sine = std::sin(x);
   if (curvature == 0)
     return 1 / s;
   return s == 0 ? 0 : std::cos(x) + (1 + curvature * distance) * sine * sine / s;
 }
 
-double Road::lift_slope(double x) const {
+double Road::second_distance_derivative(double x) const {
   const double s = root(x), sine = std::sin(x);
   return s == 0 ? 0 : curvature * sine * sine / (s * s * s);
 }

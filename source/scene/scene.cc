@@ -75,13 +75,13 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
 
 /// Half the angle in which the surface can touch the road. Contact pushes inwards, so that u <=
 /// u_f, the displacement without contact: where the force is uniform, contact ends before phi =
-/// u_f. Two cells are added, since contact that ends within a cell is felt next to it. An uneven
+/// u_f. Two cells are added, since contact that ends within a cell is felt next to it. A nonuniform
 /// force has phi < b as its limit, and no zone goes beyond that.
 double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   const Road road = scene.road_at(scene.load ? scene.least_distance : scene.road_distance);
   const double widest = std::min(road.crossing_angle(b), 3.);
-  if (scene.has_uneven_force())
+  if (scene.has_nonuniform_force())
     return widest;
   const double free = scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b);
   return std::min(widest, road.crossing_angle(free) + 4 * numbers::PI / angular_cells);

@@ -19,7 +19,7 @@ SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene&
   if (kind != SolverKind::iterative)
     try {
       choice.solver = std::make_unique<DirectSolver>(space);
-      choice.solver->turn_to(scene, load, work);
+      choice.solver->set_problem(scene, load, work);
       return choice;
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
@@ -29,7 +29,7 @@ SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene&
     }
   choice.kind = SolverKind::iterative;
   choice.solver = std::make_unique<IterativeSolver>(space);
-  choice.solver->turn_to(scene, load, work);
+  choice.solver->set_problem(scene, load, work);
   return choice;
 }
 

@@ -39,7 +39,8 @@ void DirectSolver::factorise(const Scene& scene) {
   angular_velocity = scene.angular_velocity;
 }
 
-void DirectSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) {
+void DirectSolver::set_problem(const Scene& scene, const std::optional<FieldVector>& load,
+                               Work& work) {
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);

@@ -10,8 +10,8 @@ namespace rollwave {
 
 using namespace dealii;
 
-void IterativeSolver::turn_to(const Scene& scene, const std::optional<FieldVector>& load,
-                              Work& work) {
+void IterativeSolver::set_problem(const Scene& scene, const std::optional<FieldVector>& load,
+                                  Work& work) {
   this->load = &load;
   this->work = &work;
   if (angular_velocity == scene.angular_velocity)

@@ -154,8 +154,8 @@ const std::optional<ExactSolution>& StudyBench::exact_solution(const Scene& scen
                                    // An automatic zone leaves the contact free, however wide it is.
                                    scene.has_given_zone ? scene.zone_begin : infinity,
                                    scene.has_given_zone ? scene.zone_end : infinity,
-                                   scene.has_uneven_force() ? infinity
-                                                            : scene.uniform_force.value_or(0)};
+                                   scene.has_nonuniform_force() ? infinity
+                                                                : scene.uniform_force.value_or(0)};
   const auto [known, is_new] = exact_solutions.try_emplace(key);
   if (is_new)
     known->second = find_exact_solution(scene);

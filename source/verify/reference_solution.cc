@@ -21,7 +21,7 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
       *why_none = why;
     return {};
   };
-  if (scene.has_uneven_force())
+  if (scene.has_nonuniform_force())
     return give_up("Cylinder/Radial force is not constant");
   const double left = 3 * numbers::PI / 2 - scene.zone_begin;
   const double right = scene.zone_end - 3 * numbers::PI / 2;

@@ -48,6 +48,13 @@ struct ContactProblem {
   MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
 
   unsigned int size() const { return road.size(); }
+
+  /// phi_i - u_i
+  dealii::Vector<double> gaps(const dealii::Vector<double>& displacement) const;
+
+  /// lambda_i = N_i / weight_i, and N_i = weight_i lambda_i.
+  dealii::Vector<double> pressures(const dealii::Vector<double>& force) const;
+  dealii::Vector<double> forces(const dealii::Vector<double>& pressure) const;
 };
 
 /// The three loads that are in use, b int lambda q dz: q = 1, q = cos x, and q = dphi/dc.

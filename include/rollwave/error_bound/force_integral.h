@@ -44,21 +44,21 @@ public:
   const dealii::QGauss<1>& rule() const { return angular; }
 
   /// Whether G is a function of r alone, which does no work on periodic potentials.
-  bool is_number() const { return number; }
+  bool is_uniform() const { return uniform; }
 
   /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
   const double* on_line(unsigned int cell, unsigned int p) const {
-    return &values[cell][number ? 0 : p * n_radii(cell)];
+    return &values[cell][uniform ? 0 : p * n_radii(cell)];
   }
 
   /// The same at the share @p t of the cell's angular interval.
   void on_line_at(unsigned int cell, double t, std::vector<double>& line) const;
 
-  enum class LoadKind {
-    displacement, ///< int G_h d_r phi_i dr dz
-    potential     ///< int G_h d_z psi_i / r dr dz
+  enum class TestSpace {
+    displacements, ///< int G_h d_r phi_i dr dz
+    potentials     ///< int G_h d_z psi_i / r dr dz
   };
-  void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, LoadKind kind,
+  void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, TestSpace kind,
                 const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
 
   /// delta, of the cells of all processes. 0 for a number; infinite where the squares of f weigh
@@ -66,21 +66,21 @@ public:
   double error() const { return delta; }
 
   /// The share of an active cell in delta^2; finite.
-  double cell_error_squared(unsigned int cell) const { return number ? 0 : errors_squared[cell]; }
+  double cell_error_squared(unsigned int cell) const { return uniform ? 0 : errors_squared[cell]; }
 
   /// The largest distance of the points of the scan, a length; 0 for a number.
   double scan_width() const { return width; }
 
 private:
-  void take_number(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
+  void take_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
   void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
   void conclude(const RingSpace& space, const ForceScan& scan, double sum,
                 dealii::Point<2> largest_cell);
   unsigned int n_radii(unsigned int cell) const {
-    return values[cell].size() / (number ? 1 : angular.size());
+    return values[cell].size() / (uniform ? 1 : angular.size());
   }
 
-  const bool number;
+  const bool uniform;
   const dealii::QGauss<1> angular;
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
 

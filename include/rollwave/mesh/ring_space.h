@@ -85,7 +85,7 @@ public:
 
   /// Makes contact_nodes() those of a scene with the same shared zone. @throws BadInput as the
   /// constructor.
-  void turn_to(const Scene& scene);
+  void set_contact_zone(const Scene& scene);
 
   /// The number among contact_nodes() of a node of surface_nodes(), if it is one.
   std::optional<unsigned int> contact_number(unsigned int surface_node) const {

@@ -28,10 +28,10 @@ struct Road {
   double slope(double x) const;
 
   /// dphi/dc = cos x + m sin^2 x / S, which is 1 / cos x on a flat road
-  double lift(double x) const;
+  double distance_derivative(double x) const;
 
   /// d^2 phi/dc^2 = kappa sin^2 x / S^3
-  double lift_slope(double x) const;
+  double second_distance_derivative(double x) const;
 
   /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
   /// does not reach so far; 0 where the surface is above the road.

@@ -90,7 +90,7 @@ struct Scene {
   std::optional<double> uniform_force = {};
 
   /// Whether f is no number.
-  bool has_uneven_force() const { return force && !uniform_force; }
+  bool has_nonuniform_force() const { return force && !uniform_force; }
 
   Units units = {}; ///< in the user's
 

@@ -38,7 +38,8 @@ public:
   /// depends on what has changed is computed again. @p load is the vector of the force,
   /// nullopt when it is zero; it and @p work must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
-  virtual void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) = 0;
+  virtual void set_problem(const Scene& scene, const std::optional<FieldVector>& load,
+                           Work& work) = 0;
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.

@@ -25,7 +25,7 @@ public:
   explicit DirectSolver(const RingSpace& space)
       : space(space), cholesky(space, space.candidate_nodes()) {}
 
-  void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
+  void set_problem(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;

@@ -24,7 +24,7 @@ public:
       : space(space), system(space), field(space.make_field()) {}
 
   /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
-  void turn_to(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
+  void set_problem(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;

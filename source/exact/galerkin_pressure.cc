@@ -1,4 +1,4 @@
-#include "rollwave/exact/pressure_collocation.h"
+#include "rollwave/exact/galerkin_pressure.h"
 
 #include "rollwave/base/errors.h"
 #include "rollwave/exact/gegenbauer_pressure.h"
@@ -51,7 +51,7 @@ constexpr double most_panels = 20000;
 
 /// A rule for sums over all integers k of even functions: sum_k F(k) = sum_i weight_i F(k_i) +
 /// tail.
-struct PressureCollocation::ModeSum {
+struct GalerkinPressure::ModeSum {
   std::vector<double> k;
   std::vector<double> weight;
   std::vector<double> compliance; ///< c(k_i)
@@ -94,8 +94,8 @@ private:
   }
 };
 
-PressureCollocation::PressureCollocation(const ExactScene& scene, const BesselModes& modes,
-                                         double end_exponent, unsigned int n_terms)
+GalerkinPressure::GalerkinPressure(const ExactScene& scene, const BesselModes& modes,
+                                   double end_exponent, unsigned int n_terms)
     : nu(end_exponent + 0.5), n(n_terms), scene(scene), modes(modes),
       s(end_exponent < 0 ? -end_exponent : 1 - end_exponent) {
   GaussRule rule = gauss_gegenbauer(nu, 2 * n_terms + 30);
@@ -109,9 +109,9 @@ PressureCollocation::PressureCollocation(const ExactScene& scene, const BesselMo
   }
 }
 
-PressureCollocation::~PressureCollocation() = default;
+GalerkinPressure::~GalerkinPressure() = default;
 
-PressureCollocation::Trial PressureCollocation::solve(double w) const {
+GalerkinPressure::Trial GalerkinPressure::solve(double w) const {
   const FullMatrix<double> matrix = interaction(w);
   const double free = scene.contact_free_displacement(scene.outer_radius);
   const Road road = scene.road();
@@ -133,8 +133,8 @@ PressureCollocation::Trial PressureCollocation::solve(double w) const {
   return trial;
 }
 
-Vector<double> PressureCollocation::moments(double w,
-                                            const std::function<double(double)>& function) const {
+Vector<double> GalerkinPressure::moments(double w,
+                                         const std::function<double(double)>& function) const {
   Vector<double> result(n + 1);
   for (unsigned int q = 0; q < points.size(); ++q) {
     const double value = weights[q] * function(w * points[q]);
@@ -145,7 +145,7 @@ Vector<double> PressureCollocation::moments(double w,
 }
 
 /// A_ij = (w / 2 pi) sum_k c_k g_i(k w) g_j(k w), g_i the transform of the term 2 i.
-FullMatrix<double> PressureCollocation::interaction(double w) const {
+FullMatrix<double> GalerkinPressure::interaction(double w) const {
   if (!sum || w < 0.7 * sum_width || w > 1.4 * sum_width) {
     // Bessel functions have their asymptotic form where the argument exceeds the square of the
     // order.

@@ -1,5 +1,5 @@
-#ifndef ROLLWAVE_EXACT_PRESSURE_COLLOCATION_H
-#define ROLLWAVE_EXACT_PRESSURE_COLLOCATION_H
+#ifndef ROLLWAVE_EXACT_GALERKIN_PRESSURE_H
+#define ROLLWAVE_EXACT_GALERKIN_PRESSURE_H
 
 #include "rollwave/exact/bessel_modes.h"
 #include "rollwave/exact/exact_scene.h"
@@ -18,13 +18,13 @@ namespace rollwave {
  * tested by the terms themselves. Sums over modes run exactly up to some k, then as integrals, then
  * as the mean of their asymptotic form.
  */
-class PressureCollocation {
+class GalerkinPressure {
 public:
   /// @param end_exponent of the pressure at |x| = w
   /// @p scene and @p modes must live as long.
-  PressureCollocation(const ExactScene& scene, const BesselModes& modes, double end_exponent,
-                      unsigned int n_terms);
-  ~PressureCollocation();
+  GalerkinPressure(const ExactScene& scene, const BesselModes& modes, double end_exponent,
+                   unsigned int n_terms);
+  ~GalerkinPressure();
 
   /// The coefficients of the even terms, and by how much the test by one more term fails.
   struct Trial {
