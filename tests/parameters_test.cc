@@ -150,7 +150,8 @@ TEST(Parameters, RefuseMoreRunsThanAListCanHold) {
   for (const char* key : {"Cylinder/Inner radius", "Cylinder/Outer radius", "Road/Distance",
                           "Mesh/Degree", "Mesh/Radial cells", "Mesh/Angular cells"})
     vary += std::string(key) + " = 1 | 2 | 3 | 4 | 5 | 6 | 7; ";
-  EXPECT_NE(refusal_of_setting(vary + "Contact/Rho = 1").find("more than 100000 runs"), std::string::npos);
+  EXPECT_NE(refusal_of_setting(vary + "Contact/Rho = 1").find("more than 100000 runs"),
+            std::string::npos);
   std::string single = "Study/Vary=K0/K = 1";
   for (int i = 1; i < 1000; ++i)
     single += "; K" + std::to_string(i) + "/K = 1";

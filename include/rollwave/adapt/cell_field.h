@@ -1,8 +1,8 @@
 #ifndef ROLLWAVE_ADAPT_CELL_FIELD_H
 #define ROLLWAVE_ADAPT_CELL_FIELD_H
 
-#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/mesh/line_elements.h"
+#include "rollwave/mesh/ring_mesh.h"
 
 #include <deal.II/base/point.h>
 
