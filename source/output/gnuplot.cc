@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <fstream>
+#include <sstream>
 
 namespace rollwave {
 
@@ -30,6 +32,13 @@ bool run(const std::string& command, std::string& messages) {
   while (std::fgets(buffer.data(), buffer.size(), pipe))
     messages += buffer.data();
   return pclose(pipe) == 0;
+}
+
+/// False for a picture that was cut short, as on a full disk, which gnuplot does not report.
+bool is_complete(const fs::path& svg) {
+  std::ostringstream text;
+  text << std::ifstream(svg).rdbuf();
+  return text.str().find("</svg>") != std::string::npos;
 }
 
 } // namespace
@@ -57,7 +66,8 @@ void draw(const Picture& picture, const fs::path& directory, const std::string& 
   if (run("cd '" + with_quotes_as("'\\''", fs::absolute(directory).string()) +
               "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() + "'\" " +
               script + " 2>&1",
-          messages)) {
+          messages) &&
+      is_complete(file.part())) {
     written.n_bytes += file.commit();
     written.files.push_back(directory / svg);
   } else {
