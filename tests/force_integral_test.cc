@@ -78,7 +78,8 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
   };
   const auto smooth = [](double r, double z) { return std::sin(9 * z) * (1 - r * r) / 2; };
   for (const unsigned int degree : {1, 2, 4})
-    for (const auto& [radial, angular] : {std::pair("4", "30"), {"7", "71"}, {"16", "200"}}) {
+    for (const auto& cells : {std::pair("4", "30"), {"7", "71"}, {"16", "200"}}) {
+      const char *const radial = cells.first, *const angular = cells.second;
       SCOPED_TRACE(testing::Message()
                    << "degree " << degree << " on " << radial << " x " << angular);
       const auto expect_charged = [&](const char* f, const auto& exact) {

@@ -72,7 +72,10 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   std::vector<std::string> remarks;
   const auto& ends = result.patch.ends;
   const unsigned int active_nodes = result.patch.active_nodes;
-  if (ends && (ends->first == scene.zone_begin || ends->second == scene.zone_end))
+  const double tangent = scene.road_at(scene.road_distance).tangent_angle();
+  const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
+  if (ends && (ends->first == scene.zone_begin || ends->second == scene.zone_end) &&
+      !zone_ends_at_tangent)
     remarks.push_back(
         options.road.contact_zone
             ? "the zone cuts the contact short: the pressure is unbounded at its end, "

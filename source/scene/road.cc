@@ -53,6 +53,10 @@ double Road::second_distance_derivative(double x) const {
   return s == 0 ? 0 : curvature * sine * sine / (s * s * s);
 }
 
+double Road::tangent_angle() const {
+  return curvature > 0 ? std::asin(1 / (1 + curvature * distance)) : numbers::PI;
+}
+
 double Road::crossing_angle(double free) const {
   // On the circle 1 - cos x = depth (2 - kappa depth) / (2 rho m), depth = rho - c.
   const double c = distance, m = 1 + curvature * c, rho = outer_radius + free;
@@ -60,7 +64,7 @@ double Road::crossing_angle(double free) const {
   if (depth <= 0)
     return 0;
   if (curvature > 0 && rho >= std::sqrt(c * c + 2 * c / curvature))
-    return std::asin(1 / m);
+    return tangent_angle();
   const double square = depth * (2 - curvature * depth) / (4 * rho * m);
   return 2 * std::asin(std::sqrt(std::min(square, 1.)));
 }
