@@ -10,6 +10,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace rollwave;
 
@@ -83,6 +84,20 @@ TEST(ContactPatch, OneNodeHasEndsAroundIt) {
   EXPECT_EQ(patch.active_nodes, 1u);
   EXPECT_GT(patch.half_width(), 0);
   EXPECT_LT(patch.half_width(), 0.2);
+}
+
+/// Half the width of contact in the scene of figure 4 with other @p settings.
+double half_width_with(const std::vector<std::string>& settings) {
+  const Parameters parameters = with(paper_scenes()[0].parameters(), settings);
+  return simulate(make_scene(parameters), parameters).result.patch.half_width();
+}
+
+TEST(ContactPatch, EndsAreNearTheExactOnesOnFewNodes) {
+  // 0.52 apart, three of them in contact.
+  EXPECT_NEAR(half_width_with({"Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=12"}),
+              paper_scenes()[0].half_width, 0.05);
+  // 0.016 apart, all of them in contact; the value of the semi-analytic solution.
+  EXPECT_NEAR(half_width_with({"Road/Curvature=10", "Road/Distance=0.7"}), 0.121624, 0.005);
 }
 
 TEST(ContactPatch, ResultantsAreSumsOverTheNodes) {

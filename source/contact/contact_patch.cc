@@ -93,8 +93,8 @@ double find_end(const Profile& nodes, int i, int out, int n_outside, int n_insid
     *end -= out * (2 * std::log(2.) / numbers::PI) * law.depth;
   if (!end)
     end = z[i] + out * spacing / 2;
-  const auto [low, high] = std::minmax(z[i + out] + out * spacing / 2, z[i] - out * spacing / 2);
-  return std::clamp(*end, low, high);
+  const double inner = z[i] - out * spacing / 2, outer = z[i + out] + out * spacing / 2;
+  return std::clamp(*end, std::min(inner, outer), std::max(inner, outer));
 }
 
 /// The stretches of active nodes. Nodes that touch the road without pressing part none.
