@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
-#include <utility>
+#include <vector>
 
 using namespace rollwave;
 
@@ -58,20 +58,6 @@ TEST(ContactPatch, NearTheCriticalSpeedTheResolvedScaleDecides) {
   EXPECT_NEAR(patch_of(4.2137, 5.031, 1. / 3, 0.999, 3.6, 5.8, 60).ends->first, 4.2137, 1e-12);
 }
 
-// Where cells are longer than the ring is thick; half-widths of the semi-analytic solution.
-TEST(ContactPatch, EndsOfThinRingsAreThoseOfAFoundation) {
-  for (const auto& [omega, half_width] :
-       {std::pair("0", 0.0957773671303), std::pair("0.9", 0.0981259392309)})
-    for (const char* cells : {"Mesh/Angular cells=200", "Mesh/Angular cells=400"}) {
-      const Parameters parameters =
-          parameters_of({"Cylinder/Inner radius=0.99", "Road/Distance=0.995",
-                         std::string("Cylinder/Angular velocity=") + omega, "Mesh/Degree=2",
-                         "Mesh/Radial cells=2", cells, "Certificate/Error bound=false"});
-      const Result result = simulate(make_scene(parameters), parameters).result;
-      EXPECT_NEAR(result.patch.half_width(), half_width, 0.04 * half_width) << omega << cells;
-    }
-}
-
 TEST(ContactPatch, EndsWithTheZoneWhereItCutsContactShort) {
   const auto patch = patch_of(3, 4.9, 0.5, 0.5, 3.6, 5.8, 60);
   EXPECT_EQ(patch.ends->first, 3.6);
@@ -83,6 +69,20 @@ TEST(ContactPatch, OneNodeHasEndsAroundIt) {
   EXPECT_EQ(patch.active_nodes, 1u);
   EXPECT_GT(patch.half_width(), 0);
   EXPECT_LT(patch.half_width(), 0.2);
+}
+
+/// Half the width of contact in the scene of figure 4 with other @p settings.
+double half_width_with(const std::vector<std::string>& settings) {
+  const Parameters parameters = with(paper_scenes()[0].parameters(), settings);
+  return simulate(make_scene(parameters), parameters).result.patch.half_width();
+}
+
+TEST(ContactPatch, EndsAreNearTheExactOnesOnFewNodes) {
+  // 0.52 apart, three of them in contact.
+  EXPECT_NEAR(half_width_with({"Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=12"}),
+              paper_scenes()[0].half_width, 0.05);
+  // 0.016 apart, all of them in contact; the value of the semi-analytic solution.
+  EXPECT_NEAR(half_width_with({"Road/Curvature=10", "Road/Distance=0.7"}), 0.121624, 0.005);
 }
 
 TEST(ContactPatch, ResultantsAreSumsOverTheNodes) {

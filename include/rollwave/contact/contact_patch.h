@@ -47,10 +47,6 @@ struct ContactResultants {
  * same with the pressure inside. Where the zone cuts the contact short, the end is the zone's.
  * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
  * used when the nodes are further apart than that.
- *
- * In a thin ring, of the depth D = int alpha^(1/2) dr, the surface is an elastic foundation at
- * distances greater than D: gap and pressure are linear, s = 0, and vanish (2 ln 2 / pi) D outside
- * of the end. That is used when the nodes are further apart than D / 2.
  */
 ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
                                   const ContactProblem& problem, const ContactSolution& solution);
