@@ -1,6 +1,7 @@
 #include "rollwave/program.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/result_files.h"
@@ -21,20 +22,20 @@ namespace rollwave {
 namespace {
 
 void make_study(Study& study, const Parameters& parameters, OutputDirectory& directory,
-                const Processes& processes, std::ostream& out) {
+                MPI_Comm communicator, std::ostream& out) {
   out << version_text() << "\n\n";
-  run_study(study, parameters, directory.path(), out, processes.communicator());
-  if (processes.is_first()) {
+  run_study(study, parameters, directory.path(), out, communicator);
+  const bool is_first = process_number(communicator) == 0;
+  if (is_first) {
     print_study_notes(out, study);
     WrittenFiles written = write_study(directory.path(), parameters, study);
     directory.remove_files_of_earlier_runs(written);
     report_files(out, written);
   }
-  processes.wait_for_first();
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
-  if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
-                                           [](const auto& run) { return run->is_solved(); }))
+  if (std::none_of(study.runs.begin(), study.runs.end(),
+                   [](const auto& run) { return run->is_solved(); }))
     throw NotSolved("no run of the study was solved; the first: " + study.runs.front()->failure);
 }
 
@@ -55,19 +56,18 @@ void verify(Solution& solution, std::ostream& out) {
 }
 
 void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirectory& directory,
-                 const Processes& processes, bool verifies, std::ostream& out) {
+                 MPI_Comm communicator, bool verifies, std::ostream& out) {
   report_scene(out, scene, parameters);
   if (parameters.study.true_errors)
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
-  Solution solution = simulate(scene, parameters, processes.communicator());
+  Solution solution = simulate(scene, parameters, communicator);
   report_result(out, in_users_units(solution.result, scene.units), scene.units);
   if (verifies)
     verify(solution, out);
   WrittenFiles written = write_results(directory.path(), parameters, solution);
   directory.remove_files_of_earlier_runs(written);
   report_end(out, solution.result.work, written);
-  processes.wait_for_first();
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));
 }
@@ -84,8 +84,8 @@ void report_earlier_files(std::ostream& out, const OutputDirectory& directory) {
 
 } // namespace
 
-void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
-  Parameters parameters = read_parameters(settings_of(line, processes.communicator()));
+void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& out) {
+  Parameters parameters = read_parameters(settings_of(line, communicator));
   parameters.file = line.file;
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
@@ -94,19 +94,19 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
     Study study;
     Scene scene; // the runs of a study have their own
     if (is_study)
-      study = plan_study(parameters, processes.communicator());
+      study = plan_study(parameters, communicator);
     else
       scene = make_scene(parameters);
-    OutputDirectory directory(parameters, processes.communicator());
+    OutputDirectory directory(parameters, communicator);
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
     try {
       if (is_study)
-        make_study(study, parameters, directory, processes, out);
+        make_study(study, parameters, directory, communicator, out);
       else
-        solve_scene(scene, parameters, directory, processes, line.verify, out);
+        solve_scene(scene, parameters, directory, communicator, line.verify, out);
     } catch (...) {
       report_earlier_files(out, directory);
       throw;

@@ -222,7 +222,7 @@ TEST_F(Faults, SignalsOfBatchSystemsInterruptHoweverOftenTheyCome) {
   for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
     EXPECT_EXIT(
         {
-          heed_interrupts();
+          install_signal_handlers();
           std::raise(signal);
           std::raise(signal);
           std::exit(is_interrupted(MPI_COMM_SELF) ? 2 : 0);
@@ -233,7 +233,7 @@ TEST_F(Faults, SignalsOfBatchSystemsInterruptHoweverOftenTheyCome) {
 TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
   EXPECT_EXIT(
       {
-        heed_interrupts();
+        install_signal_handlers();
         std::raise(SIGINT);
         const Parameters parameters = parameters_of({"Mesh/Adaptive cycles=1"});
         try {
@@ -249,7 +249,7 @@ TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
 
 TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
   const auto simulate_interrupted = [](const std::vector<std::string>& assignments) {
-    heed_interrupts();
+    install_signal_handlers();
     const Parameters parameters = parameters_of(assignments);
     Scene scene = make_scene(parameters);
     scene.road = [road = scene.road](double z) {

@@ -1,7 +1,6 @@
 // G_h is G where a force is a polynomial, and delta is an upper estimate of what it misses.
 #include "rollwave/error_bound/force_integral.h"
 
-#include "floating_point.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/scene/scene.h"
 #include "test_scenes.h"
@@ -96,7 +95,6 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
 }
 
 TEST(ForceIntegral, IsRefusedWhereTheForceIsNotFinite) {
-  const UntrappedFloatingPoint untrapped;
   const Parameters parameters = parameters_of({"Cylinder/Radial force=if(z<3,1/(r-r),1)"});
   try {
     simulate(make_scene(parameters), parameters);

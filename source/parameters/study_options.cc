@@ -5,7 +5,6 @@
 #include "rollwave/parameters/declarations.h"
 
 #include <cmath>
-#include <limits>
 #include <regex>
 #include <set>
 #include <stdexcept>
@@ -168,11 +167,6 @@ void declare_study(Declarations& keys, StudyOptions& study) {
       "The files to write for each run of a study, any of those of Output/Files, into run-001, "
       "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
       "all fields for ParaView.");
-  keys.add_count("Processes per scene", study.processes_per_scene, 0,
-                 std::numeric_limits<int>::max(),
-                 "Under MPI with a number greater than 0, as many processes make a run and several "
-                 "runs are made at the same time; one process hands them out. 0: all processes "
-                 "make each run together.");
 }
 
 } // namespace rollwave

@@ -4,7 +4,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/base/task_farm.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/study/study_bench.h"
 #include "rollwave/study/study_table.h"
@@ -101,63 +100,27 @@ void write_runs(const fs::path& directory, const Study& study) {
   write_file(directory / "study.csv", study_csv(study));
 }
 
-/// Whether groups of processes make several runs at a time.
-bool is_farmed(const Parameters& parameters, MPI_Comm communicator) {
-  return parameters.study.processes_per_scene > 0 && !is_alone(communicator);
-}
-
-/// Makes the runs of these numbers, on all processes together or in groups that make several at a
-/// time, and hands each to @p add. False when the user has interrupted it.
+/// Makes the runs of these numbers and hands each to @p add. False when the user has interrupted
+/// it.
 bool make_runs(const Study& study, const std::vector<unsigned int>& numbers,
                const std::vector<std::string>& directories, const Parameters& parameters,
                const fs::path& directory, MPI_Comm communicator,
                const std::function<void(unsigned int, StudyRun)>& add) {
-  // Each process, or each group, makes its runs one after the other.
-  std::optional<StudyBench> bench;
-  const auto make = [&](unsigned int task, MPI_Comm group) {
-    if (!bench)
-      bench.emplace(study.plans, parameters, directory, group);
-    return bench->make(study.plans[numbers[task]], directories[numbers[task]]);
-  };
-  bool is_complete = true;
-  if (is_farmed(parameters, communicator))
-    farm_out(
-        communicator, parameters.study.processes_per_scene, numbers.size(),
-        [&](unsigned int task, const std::string& line) {
-          auto runs = read_study_runs(line); // none of a run that was interrupted
-          is_complete = is_complete && !runs.empty() && !is_interrupted(MPI_COMM_SELF);
-          if (!runs.empty())
-            add(numbers[task], std::move(runs.front().second));
-          return is_complete;
-        },
-        [&](unsigned int task, MPI_Comm group) {
-          try {
-            return study_line(study.plans[numbers[task]], make(task, group));
-          } catch (const Interrupted&) {
-            return std::string();
-          }
-        });
-  else
-    try {
-      for (unsigned int task = 0; task < numbers.size(); ++task)
-        add(numbers[task], make(task, communicator));
-    } catch (const Interrupted&) {
-      is_complete = false;
-    }
-  return is_complete;
+  StudyBench bench(study.plans, parameters, directory, communicator);
+  try {
+    for (const unsigned int number : numbers)
+      add(number, bench.make(study.plans[number], directories[number]));
+  } catch (const Interrupted&) {
+    return false;
+  }
+  return true;
 }
 
 } // namespace
 
 Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
-  const unsigned int n_processes = count_processes(communicator),
-                     group_size = parameters.study.processes_per_scene;
-  if (is_farmed(parameters, communicator) && group_size >= n_processes)
-    throw BadValue("Study", "Processes per scene",
-                   "one process hands out the scenes, so that there must be more than these");
   Study study;
-  study.plans =
-      plan_runs(parameters, is_farmed(parameters, communicator) ? group_size : n_processes);
+  study.plans = plan_runs(parameters, count_processes(communicator));
   study.runs.resize(study.plans.size());
   study.has_true_errors = parameters.study.true_errors;
   unsigned int place = 0;

@@ -23,8 +23,7 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_
  * parameters, or lacks files that are wanted of it. A table with rows of other runs is kept as
  * study-before.csv, study-before-2.csv and so on.
  *
- * On several processes all of them make each run together, or groups of `Study/Processes per scene`
- * make several at a time; the first of them writes.
+ * On several processes all of them make each run together; rank 0 writes.
  *
  * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
  * and no further run is begun.
