@@ -2,6 +2,8 @@
 
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,16 +63,18 @@ double find_end(const Scene& scene, const Profile& nodes, int i, int out, int n_
                     std::max(inner, outer));
 }
 
-/// The stretches of active nodes. Nodes that touch the road without pressing part none.
+/// The stretches of active nodes: two of them are apart where the gap of a node between them is
+/// larger than @p negligible_gap.
 std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profile& nodes,
                                     double negligible_gap) {
   const int n = active.size();
   std::vector<Stretch> stretches;
-  double opening = 0; // the largest gap since the last active node
+  double opening = 0; // the largest gap of the nodes since the last active one
   for (int i = 0; i < n; ++i) {
-    opening = std::max(opening, nodes.gap[i]);
-    if (!active[i])
+    if (!active[i]) {
+      opening = std::max(opening, nodes.gap[i]);
       continue;
+    }
     if (stretches.empty())
       stretches.push_back({i, i, i, 0});
     else if (opening > negligible_gap) {
@@ -86,12 +90,11 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
   return stretches;
 }
 
-/// Between the points of the road at two angles.
-double distance_on_road(const Road& road, double begin, double end) {
-  const double r = road.outer_radius + road.displacement(from_lowest_point(begin)),
-               s = road.outer_radius + road.displacement(from_lowest_point(end));
-  return std::hypot(r * std::cos(begin) - s * std::cos(end),
-                    r * std::sin(begin) - s * std::sin(end));
+/// Between which angles contact can end: those of the zone, up to the tangent of a drum.
+std::pair<double, double> reach_of(const Scene& scene, const Road& road) {
+  const double lowest_point = 3 * numbers::PI / 2, tangent = road.tangent_angle();
+  return {std::max(scene.zone_begin, lowest_point - tangent),
+          std::min(scene.zone_end, lowest_point + tangent)};
 }
 
 } // namespace
@@ -117,17 +120,20 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
     profile.angle.push_back(nodes[i].angle);
     resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure[i]);
   }
-  for (const Stretch& stretch :
-       find_stretches(solution.active, profile, 1e-10 * displacement.linfty_norm())) {
+  const auto [least_begin, largest_end] = reach_of(scene, problem.shape);
+  const double negligible_gap = std::max(solution.gap_accuracy, 1e-10 * displacement.linfty_norm());
+  for (const Stretch& stretch : find_stretches(solution.active, profile, negligible_gap)) {
     const auto [first, last, n_before, n_behind] = stretch;
-    ContactPatch patch = {scene.zone_begin, scene.zone_end, 0, 0, 0};
+    ContactPatch patch = {least_begin, largest_end, 0, 0, 0};
     if (n_before > 0)
-      patch.begin = find_end(scene, profile, first, -1, n_before, last - first);
+      patch.begin =
+          std::max(least_begin, find_end(scene, profile, first, -1, n_before, last - first));
     if (n_behind > 0)
-      patch.end = find_end(scene, profile, last, 1, n_behind, last - first);
+      patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_behind, last - first));
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
-    patch.length = distance_on_road(problem.shape, patch.begin, patch.end);
+    patch.length = problem.shape.arc_length(from_lowest_point(patch.end)) -
+                   problem.shape.arc_length(from_lowest_point(patch.begin));
     for (int i = first; i <= last; ++i) {
       patch.force += force(i);
       patch.centroid += force(i) * profile.angle[i];
