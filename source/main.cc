@@ -1,5 +1,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
+#include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 #include "rollwave/parameters/command_line.h"
@@ -74,6 +75,7 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
 
 int main(int argc, char* argv[]) {
   open_standard_streams();
+  const bool has_memory = fit_blas_into_address_space(argv);
   settle_signals(true);
   const Processes processes(argv);
   settle_signals(processes.is_first()); // PETSc, which deal.II starts with MPI, has undone that
@@ -85,6 +87,8 @@ int main(int argc, char* argv[]) {
     return processes.end(code);
   };
   try {
+    if (!has_memory)
+      throw NotEnoughMemory();
     act({argv + 1, argv + argc}, processes);
     if (!(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");

@@ -60,18 +60,12 @@ struct Bracket {
 
 Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& problem,
                         const ContactSolution& solution) {
-  ContactState moved = solution.state;
-  moved.force = 0;
+  Vector<double> moved(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      moved.displacement(i) =
-          solution.state.displacement(i) + problem.shape.distance_derivative(problem.x[i]);
-  solver.solve(solution.active, moved, final_accuracy);
-  Vector<double> change = solution.state.force;
-  change -= moved.force;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    if (!solution.active[i])
-      change(i) = 0;
+      moved(i) = problem.shape.distance_derivative(problem.x[i]);
+  Vector<double> change = solver.force_change(solution.active, moved, final_accuracy);
+  change *= -1;
   Loads stiffness = loads_of(problem, change);
   for (unsigned int i = 0; i < problem.size(); ++i)
     stiffness.work_conjugate -=

@@ -53,7 +53,14 @@ public:
   /// @p accuracy is as for solve().
   virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
 
-  /// The field u of a state that solve() has left, constraints included.
+  /// The change of N_i when the pinned nodes move by @p displacement and all else stays as it is;
+  /// zero on the others. The derivative of solve() by the displacement given there. @p accuracy is
+  /// as for solve().
+  virtual dealii::Vector<double> force_change(const std::vector<bool>& pinned,
+                                              const dealii::Vector<double>& displacement,
+                                              double accuracy) = 0;
+
+  /// The field u of a state that solve() has left since set_problem(), constraints included.
   virtual FieldVector displacement_field(const ContactState& state) = 0;
 
   /// K u for a field that obeys the constraints; zero where a constraint holds.
