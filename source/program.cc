@@ -7,6 +7,7 @@
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
@@ -63,10 +64,13 @@ void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirecto
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator);
   report_result(out, in_users_units(solution.result, scene.units), scene.units);
-  if (verifies)
-    verify(solution, out);
   WrittenFiles written = write_results(directory.path(), parameters, solution);
   directory.remove_files_of_earlier_runs(written);
+  if (verifies) {
+    attempt([&] { verify(solution, out); }, "the result could not be verified",
+            "leave out --verify", processes.communicator(), solution.result);
+    write_summary(directory.path(), parameters, solution);
+  }
   report_end(out, solution.result.work, written);
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));

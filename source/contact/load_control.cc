@@ -66,19 +66,11 @@ struct Bracket {
 /// same nodes stay in contact: they follow it, du_i = -dphi/dc.
 ContactState rate_of_approach(ContactLinearSolver& solver, const ContactProblem& problem,
                               const ContactSolution& solution) {
-  ContactState moved = solution.state;
-  moved.force = 0;
+  Vector<double> displacement(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      moved.displacement(i) += problem.shape.distance_derivative(problem.x[i]);
-  solver.solve(solution.active, moved, final_accuracy);
-  ContactState rate = solution.state;
-  rate.displacement -= moved.displacement;
-  rate.force -= moved.force;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    if (!solution.active[i])
-      rate.force(i) = 0;
-  return rate;
+      displacement(i) = -problem.shape.distance_derivative(problem.x[i]);
+  return solver.derivative(solution.active, displacement, final_accuracy);
 }
 
 /// -d/dc of the loads while the same nodes stay in contact. For the work-conjugate load

@@ -6,6 +6,7 @@
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/load_bounds.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -45,32 +46,23 @@ Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNod
   return pressure;
 }
 
-/// Why something was not solved. For want of memory there is other advice than the exception's.
-std::string reason_of(const NotSolved& failure) {
-  const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure);
-  return shortage ? shortage->reason : failure.what();
-}
-
-/// What is left out for a failure, and the key that leaves it out from the start.
-std::string left_out_text(const std::string& what, const NotSolved& failure,
-                          const std::string& key) {
-  return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
-}
-
-/// Certifies, unless that fails, such as for want of memory: then that is a shortfall.
+/// Certifies the solution on a mesh, unless that fails.
 void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
   const Scene& scene = on_mesh.scene;
-  try {
-    solution.certificate =
-        certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-                solution.system.force.get(),
-                solution.system.dual_of(scene, *solution.space, result.work), result.work);
-  } catch (const NotSolved& failure) {
-    result.shortfalls.push_back(
-        left_out_text("the error could not be certified", failure, "Certificate/Error bound"));
+  const bool is_certified = attempt(
+      [&] {
+        solution.certificate =
+            certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
+                    solution.system.force.get(),
+                    solution.system.dual_of(scene, *solution.space, result.work), result.work);
+      },
+      "the error could not be certified",
+      "use fewer unknowns, or set Certificate/Error bound to false", solution.space->communicator(),
+      result);
+  result.cycles.back().lacks_certificate = !is_certified;
+  if (!is_certified)
     return;
-  }
   result.certified = solution.certificate->error;
   result.cycles.back().certified = solution.certificate->error.relative;
 }
@@ -152,21 +144,20 @@ void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Soluti
 void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution) {
   Result& result = solution.result;
   const auto& certificate = options.certificate;
-  if (certificate.error_bound && !solution.certificate)
+  const CycleFigures& mesh = result.cycles.back();
+  if (certificate.error_bound && !solution.certificate && !mesh.lacks_certificate)
     certify_solution(on_mesh, solution);
-  if (options.mesh.wanted_relative_error > 0 && !is_reached(options, result))
+  if (options.mesh.wanted_relative_error > 0 && !mesh.lacks_certificate &&
+      !is_reached(options, result))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*solution.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
   if (certificate.load_bounds && result.certified && !result.is_interrupted)
-    try {
-      enclose_load(options, on_mesh, solution);
-    } catch (const NotSolved& failure) {
-      result.shortfalls.push_back(
-          left_out_text("the load could not be enclosed", failure, "Certificate/Load bounds"));
-    }
+    attempt([&] { enclose_load(options, on_mesh, solution); }, "the load could not be enclosed",
+            "use fewer unknowns, or set Certificate/Load bounds to false",
+            solution.space->communicator(), result);
   for (const std::string& remark : remarks_on(solution.scene, options, *solution.space, result))
     result.remarks.push_back(remark);
   solution.displacement = std::move(on_mesh.displacement);
