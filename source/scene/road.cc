@@ -53,10 +53,6 @@ double Road::second_distance_derivative(double x) const {
   return s == 0 ? 0 : curvature * sine * sine / (s * s * s);
 }
 
-double Road::tangent_angle() const {
-  return curvature > 0 ? std::asin(1 / (1 + curvature * distance)) : numbers::PI;
-}
-
 double Road::crossing_angle(double free) const {
   // On the circle 1 - cos x = depth (2 - kappa depth) / (2 rho m), depth = rho - c.
   const double c = distance, m = 1 + curvature * c, rho = outer_radius + free;

@@ -33,10 +33,6 @@ struct Road {
   /// d^2 phi/dc^2 = kappa sin^2 x / S^3
   double second_distance_derivative(double x) const;
 
-  /// The angle of the tangent from the axle, where the drum ends for the axle's eye: sin x = 1/m;
-  /// pi on a road without one.
-  double tangent_angle() const;
-
   /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
   /// does not reach so far; 0 where the surface is above the road.
   double crossing_angle(double free) const;
