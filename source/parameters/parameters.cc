@@ -124,16 +124,16 @@ void declare_mesh(Declarations& keys, Parameters& p) {
                   "is no larger than this number, from 0 to 1; 0 for no such wish.");
   keys.add_choice<Indicator>(
       "Indicator", p.mesh.indicator,
-      {{"residual", Indicator::residual}, {"kelly", Indicator::kelly}},
-      "What tells where to refine. \"residual\": residuals and contact conditions on each cell. "
-      "\"kelly\": jumps of the normal derivative, for comparison.");
+      {{"certificate", Indicator::certificate}, {"kelly", Indicator::kelly}},
+      "What tells where to refine. \"certificate\": each cell's share of the error bound. "
+      "\"kelly\": jumps of the normal derivative, which are also taken where "
+      "Certificate/Error bound is false.");
   keys.add_choice<Marking>(
-      "Marking", p.mesh.marking,
-      {{"bulk", Marking::bulk}, {"number", Marking::number}, {"all", Marking::all}},
+      "Marking", p.mesh.marking, {{"bulk", Marking::bulk}, {"all", Marking::all}},
       "Which cells to refine. \"bulk\": the fewest that hold the marked fraction of the squared "
-      "error. \"number\": the marked fraction of all cells. \"all\": every cell.");
+      "error. \"all\": every cell.");
   keys.add_number("Marked fraction", p.mesh.marked_fraction, 0.01, 1,
-                  "The fraction that Marking speaks of, from 0.01 to 1.");
+                  "The fraction for Marking = bulk, from 0.01 to 1.");
   keys.add_count("Most unknowns", p.mesh.most_unknowns, 1, most,
                  "A mesh with more unknowns than this number is refused; adaptive refinement ends "
                  "below it.");

@@ -91,7 +91,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
     if (options.mesh.wanted_relative_error == 0)
       remark += "; refine, or set Mesh/Wanted relative error";
     if (std::isinf(result.certified->force_data))
-      remark = "there is no bound: f^2 grows without end towards one place, as at a pole";
+      remark = "there is no bound: the force is singular (not square-integrable)";
     remarks.push_back(remark);
   }
   // Two cells with all of their nodes have one more.
