@@ -22,16 +22,14 @@ namespace rollwave {
 
 namespace {
 
-void make_study(Study& study, const Parameters& parameters, OutputDirectory& directory,
-                MPI_Comm communicator, std::ostream& out) {
+void make_study(Study& study, const Parameters& parameters, MPI_Comm communicator,
+                std::ostream& out) {
   out << version_text() << "\n\n";
-  run_study(study, parameters, directory.path(), out, communicator);
-  const bool is_first = process_number(communicator) == 0;
-  if (is_first) {
+  run_study(study, parameters, out, communicator);
+  if (process_number(communicator) == 0) {
+    out << '\n' << table_as_text(study);
     print_study_notes(out, study);
-    WrittenFiles written = write_study(directory.path(), parameters, study);
-    directory.remove_files_of_earlier_runs(written);
-    report_files(out, written);
+    report_files(out, write_study(parameters, study));
   }
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
@@ -56,34 +54,24 @@ void verify(Solution& solution, std::ostream& out) {
   }
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirectory& directory,
-                 MPI_Comm communicator, bool verifies, std::ostream& out) {
+void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
+                 bool verifies, std::ostream& out) {
   report_scene(out, scene, parameters);
   if (parameters.study.true_errors)
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator);
   report_result(out, in_users_units(solution.result, scene.units), scene.units);
-  WrittenFiles written = write_results(directory.path(), parameters, solution);
-  directory.remove_files_of_earlier_runs(written);
+  const auto& directory = parameters.output.directory;
+  const WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) {
     attempt([&] { verify(solution, out); }, "the result could not be verified",
-            "leave out --verify", processes.communicator(), solution.result);
-    write_summary(directory.path(), parameters, solution);
+            "leave out --verify", communicator, solution.result);
+    write_summary(directory, parameters, solution);
   }
   report_end(out, solution.result.work, written);
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));
-}
-
-/// Says which files are of other scenes, where a run has failed.
-void report_earlier_files(std::ostream& out, const OutputDirectory& directory) {
-  std::string names;
-  for (const std::string& name : directory.files_of_earlier_runs())
-    names += (names.empty() ? "" : ", ") + name;
-  if (!names.empty())
-    out << "Note: " << directory.path().string()
-        << " still holds files of an earlier run: " << names << '\n';
 }
 
 } // namespace
@@ -101,20 +89,19 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       study = plan_study(parameters, communicator);
     else
       scene = make_scene(parameters);
-    OutputDirectory directory(parameters, communicator);
+    std::string removed;
+    for (const std::string& name : prepare_directory(parameters, is_study, communicator))
+      removed += (removed.empty() ? "" : ", ") + name;
+    if (!removed.empty())
+      out << "Note: files of an earlier run are removed: " << removed << '\n';
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
-    try {
-      if (is_study)
-        make_study(study, parameters, directory, communicator, out);
-      else
-        solve_scene(scene, parameters, directory, communicator, line.verify, out);
-    } catch (...) {
-      report_earlier_files(out, directory);
-      throw;
-    }
+    if (is_study)
+      make_study(study, parameters, communicator, out);
+    else
+      solve_scene(scene, parameters, communicator, line.verify, out);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

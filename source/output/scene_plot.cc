@@ -147,9 +147,9 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << "a = " << scene.inner_radius / scene.outer_radius
          << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
-         << "\nroad_side = \"" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
-         << "\"\nheight = " << 2 * zoom * ratio << "\nset multiplot title \""
-         << title_of(scene, result) << "\"\n"
+         << "\nroad_side = '" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
+         << "'\nheight = " << 2 * zoom * ratio << "\nset multiplot title "
+         << in_single_quotes(title_of(scene, result)) << '\n'
          << pictures;
   for (const ContactPatch& patch : result.patch.patches)
     for (const double z : {patch.begin, patch.end})
@@ -158,8 +158,9 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << "set ylabel 'pressure" << pressure_unit(scene.units) << "'\n" << pressure;
-  return draw(script.str(), width, height);
+  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units)) << '\n'
+         << pressure << "unset multiplot\n";
+  return {script.str(), width, height};
 }
 
 } // namespace rollwave

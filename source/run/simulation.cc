@@ -59,7 +59,6 @@ void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
       "the error could not be certified",
       "use fewer unknowns, or set Certificate/Error bound to false", solution.space->communicator(),
       result);
-  result.cycles.back().lacks_certificate = !is_certified;
   if (!is_certified)
     return;
   result.certified = solution.certificate->error;
@@ -121,8 +120,7 @@ void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Soluti
 void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution) {
   Result& result = solution.result;
   const auto& certificate = options.certificate;
-  if (options.mesh.wanted_relative_error > 0 && !result.cycles.back().lacks_certificate &&
-      !is_reached(options, result))
+  if (options.mesh.wanted_relative_error > 0 && result.certified && !is_reached(options, result))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*solution.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&

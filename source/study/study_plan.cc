@@ -5,8 +5,7 @@
 #include "rollwave/scene/units.h"
 
 #include <cctype>
-#include <sstream>
-#include <stdexcept>
+#include <map>
 #include <utility>
 
 namespace rollwave {
@@ -26,29 +25,6 @@ std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& var
     all = std::move(longer);
   }
   return all;
-}
-
-/// Its numbers in their shortest form: 0.9 for 0.90.
-std::string shortest(const std::string& value) {
-  std::string text;
-  for (const std::string& part : split(value, ',')) {
-    text += text.empty() ? "" : ", ";
-    try {
-      text += shortest_text(to_number(part));
-    } catch (const std::invalid_argument&) {
-      text += part;
-    }
-  }
-  return text;
-}
-
-std::map<std::string, std::string> default_values() {
-  std::stringstream text;
-  print_parameters(text, {});
-  std::map<std::string, std::string> values;
-  for (const Setting& setting : read_settings(text, "defaults"))
-    values[setting.path()] = shortest(setting.value);
-  return values;
 }
 
 void check(const Parameters& parameters, unsigned int n_processes) {
@@ -90,22 +66,14 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
     if (setting.section != "Study" && setting.path() != "Output/Directory" &&
         setting.path() != "Output/Files")
       common.push_back(setting);
-  const auto defaults = default_values();
   std::vector<RunPlan> plans;
   for (const auto& scene : scenes)
     for (const auto& varied : combinations(parameters.study.vary)) {
       std::vector<Setting> settings = common;
       settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
       settings.insert(settings.end(), varied.begin(), varied.end());
-      plans.push_back({scene.name, varied, {}, read_parameters(settings), {}});
+      plans.push_back({scene.name, varied, {}, read_parameters(settings)});
       check(plans.back().parameters, n_processes);
-      for (const Setting& setting : settings) {
-        auto& value = plans.back().identity[setting.path()] = shortest(setting.value);
-        if (value == defaults.at(setting.path()) || setting.section == "Output")
-          plans.back().identity.erase(setting.path());
-      }
-      if (parameters.study.true_errors)
-        plans.back().identity["Study/True errors"] = "true";
     }
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())

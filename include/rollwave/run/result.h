@@ -38,7 +38,6 @@ struct CycleFigures {
   unsigned int contact_steps;
   double indicated;                ///< sqrt(sum eta_K^2); 0 on the last mesh
   std::optional<double> certified; ///< CertifiedError::relative where it was computed
-  bool lacks_certificate = false;  ///< true if it could not be computed
 };
 
 /// How well the optimality conditions hold, each relative to its own data; all zero is perfect.
