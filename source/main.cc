@@ -1,15 +1,18 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
-#include "rollwave/base/mpi_processes.h"
+#include "rollwave/base/memory.h"
 #include "rollwave/base/version.h"
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/program.h"
 
-#include <csignal>
+#include <deal.II/base/mpi.h>
+
+#include <cstdlib>
 #include <fcntl.h>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <unistd.h>
 #include <utility>
@@ -18,9 +21,9 @@ using namespace rollwave;
 
 namespace {
 
-/// Opens closed standard streams on nothing, lest a result file takes their place.
+/// Opens /dev/null on closed descriptors 0 to 2, so that no result file gets one of them. Reading
+/// from it or writing to it fails, as with a closed descriptor.
 void open_standard_streams() {
-  // What cannot be read from or written to stays so.
   for (const auto& [stream, mode] :
        {std::pair(STDIN_FILENO, O_WRONLY), std::pair(STDOUT_FILENO, O_RDONLY),
         std::pair(STDERR_FILENO, O_RDONLY)})
@@ -28,27 +31,16 @@ void open_standard_streams() {
       open("/dev/null", mode);
 }
 
-void settle_signals(bool tells_interrupts) {
-  // Writing to a full disk or a closed pipe is an error of the stream: a run whose screen goes away
-  // still writes its files.
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
-  heed_interrupts(tells_interrupts);
+/// True if a launcher has started several processes, by the variables of Open MPI, MPICH and PMIx.
+bool is_launched_by_mpi() {
+  for (const char* const variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+    if (const char* const size = std::getenv(variable))
+      return std::strtol(size, nullptr, 10) > 1;
+  return std::getenv("PMIX_RANK") != nullptr;
 }
 
-void require_equal(const std::vector<std::string>& arguments, MPI_Comm communicator) {
-  std::string all;
-  for (const std::string& argument : arguments)
-    all += argument + '\0';
-  if (!first_text(communicator, all == share_text(communicator, all) ? "" : "other").empty())
-    throw BadInput("the processes of one run need the same command line, and these have others");
-}
-
-void act(const std::vector<std::string>& arguments, const Processes& processes) {
-  require_equal(arguments, processes.communicator());
+void act(const std::vector<std::string>& arguments, MPI_Comm communicator, std::ostream& out) {
   const CommandLine line = read_command_line(arguments);
-  std::ostream silence(nullptr);
-  std::ostream& out = processes.is_first() ? std::cout : silence;
   switch (line.action) {
   case CommandLine::Action::help:
     out << usage();
@@ -59,14 +51,12 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
   case CommandLine::Action::parameters: {
     // deal.II throws where it cannot write.
     std::ostringstream text;
-    print_parameters(text, settings_of(line, processes.communicator()));
+    print_parameters(text, settings_of(line, communicator));
     out << text.str();
     break;
   }
   case CommandLine::Action::run:
-    if (!line.is_single)
-      processes.require_company();
-    run_program(line, processes, out);
+    run_program(line, communicator, out);
   }
 }
 
@@ -74,28 +64,46 @@ void act(const std::vector<std::string>& arguments, const Processes& processes) 
 
 int main(int argc, char* argv[]) {
   open_standard_streams();
-  settle_signals(true);
-  const Processes processes(argv);
-  settle_signals(processes.is_first()); // PETSc, which deal.II starts with MPI, has undone that
-  const auto fail = [&](const std::string& kind, const std::string& message, int code) {
-    processes.let_first_speak();
-    std::cout << std::flush;
-    // In one piece, since launchers mix what processes write.
-    std::cerr << "rollwave: " + kind + message + '\n' << std::flush;
-    return processes.end(code);
+  const bool has_memory = fit_blas_into_address_space(argv);
+  install_signal_handlers();
+  std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
+  bool is_first = true;
+  if (is_launched_by_mpi()) {
+    int n_arguments = 1; // PETSc, which starts with MPI, knows none of the others
+    mpi.emplace(n_arguments, argv, /*max_num_threads=*/1);
+    is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    install_signal_handlers(is_first); // PETSc has replaced them
+  }
+  // An error of all processes, or of rank 0 alone, which writes the files: rank 0 reports it and
+  // ends the others, which wait for it at the end of MPI.
+  const auto fail = [&](const std::string& message, int code, bool is_of_one_process = false) {
+    if (is_first || is_of_one_process) {
+      std::cout << std::flush;
+      // In one piece, since launchers mix what processes write.
+      std::cerr << "rollwave: " + message + '\n' << std::flush;
+      if (mpi)
+        MPI_Abort(MPI_COMM_WORLD, code);
+    }
+    return code;
   };
   try {
-    act({argv + 1, argv + argc}, processes);
-    if (!(std::cout << std::flush))
+    if (!has_memory)
+      throw NotEnoughMemory();
+    std::ostream silence(nullptr);
+    act({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
+        is_first ? std::cout : silence);
+    if (is_first && !(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");
     return 0;
   } catch (const BadInput& error) {
-    return fail("", error.what(), 1);
+    return fail(error.what(), 1);
   } catch (const NotWritten& error) {
-    return fail("not written: ", error.what(), 3);
+    return fail(std::string("not written: ") + error.what(), 3);
+  } catch (const NotSolved& error) {
+    return fail(std::string("not solved: ") + error.what(), 2);
   } catch (const std::bad_alloc&) {
-    return fail("not solved: ", NotEnoughMemory().what(), 2);
-  } catch (const std::exception& error) { // NotSolved, or what a library throws
-    return fail("not solved: ", error.what(), 2);
+    return fail(std::string("not solved: ") + NotEnoughMemory().what(), 2, true);
+  } catch (const std::exception& error) { // of a library
+    return fail(std::string("not solved: ") + error.what(), 2, true);
   }
 }

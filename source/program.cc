@@ -1,11 +1,13 @@
 #include "rollwave/program.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
@@ -20,21 +22,19 @@ namespace rollwave {
 
 namespace {
 
-void make_study(Study& study, const Parameters& parameters, OutputDirectory& directory,
-                const Processes& processes, std::ostream& out) {
+void make_study(Study& study, const Parameters& parameters, MPI_Comm communicator,
+                std::ostream& out) {
   out << version_text() << "\n\n";
-  run_study(study, parameters, directory.path(), out, processes.communicator());
-  if (processes.is_first()) {
+  run_study(study, parameters, out, communicator);
+  if (process_number(communicator) == 0) {
+    out << '\n' << table_as_text(study);
     print_study_notes(out, study);
-    WrittenFiles written = write_study(directory.path(), parameters, study);
-    directory.remove_files_of_earlier_runs(written);
-    report_files(out, written);
+    report_files(out, write_study(parameters, study));
   }
-  processes.wait_for_first();
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
-  if (processes.is_first() && std::none_of(study.runs.begin(), study.runs.end(),
-                                           [](const auto& run) { return run->is_solved(); }))
+  if (std::none_of(study.runs.begin(), study.runs.end(),
+                   [](const auto& run) { return run->is_solved(); }))
     throw NotSolved("no run of the study was solved; the first: " + study.runs.front()->failure);
 }
 
@@ -54,38 +54,30 @@ void verify(Solution& solution, std::ostream& out) {
   }
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirectory& directory,
-                 const Processes& processes, bool verifies, std::ostream& out) {
+void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
+                 bool verifies, std::ostream& out) {
   report_scene(out, scene, parameters);
   if (parameters.study.true_errors)
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
-  Solution solution = simulate(scene, parameters, processes.communicator());
+  Solution solution = simulate(scene, parameters, communicator);
   report_result(out, in_users_units(solution.result, scene.units), scene.units);
-  if (verifies)
-    verify(solution, out);
-  WrittenFiles written = write_results(directory.path(), parameters, solution);
-  directory.remove_files_of_earlier_runs(written);
+  const auto& directory = parameters.output.directory;
+  const WrittenFiles written = write_results(directory, parameters, solution);
+  if (verifies) {
+    attempt([&] { verify(solution, out); }, "the result could not be verified",
+            "leave out --verify", communicator, solution.result);
+    write_summary(directory, parameters, solution);
+  }
   report_end(out, solution.result.work, written);
-  processes.wait_for_first();
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));
 }
 
-/// Says which files are of other scenes, where a run has failed.
-void report_earlier_files(std::ostream& out, const OutputDirectory& directory) {
-  std::string names;
-  for (const std::string& name : directory.files_of_earlier_runs())
-    names += (names.empty() ? "" : ", ") + name;
-  if (!names.empty())
-    out << "Note: " << directory.path().string()
-        << " still holds files of an earlier run: " << names << '\n';
-}
-
 } // namespace
 
-void run_program(const CommandLine& line, const Processes& processes, std::ostream& out) {
-  Parameters parameters = read_parameters(settings_of(line, processes.communicator()));
+void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& out) {
+  Parameters parameters = read_parameters(settings_of(line, communicator));
   parameters.file = line.file;
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
@@ -94,23 +86,22 @@ void run_program(const CommandLine& line, const Processes& processes, std::ostre
     Study study;
     Scene scene; // the runs of a study have their own
     if (is_study)
-      study = plan_study(parameters, processes.communicator());
+      study = plan_study(parameters, communicator);
     else
       scene = make_scene(parameters);
-    OutputDirectory directory(parameters, processes.communicator());
+    std::string removed;
+    for (const std::string& name : prepare_directory(parameters, is_study, communicator))
+      removed += (removed.empty() ? "" : ", ") + name;
+    if (!removed.empty())
+      out << "Note: files of an earlier run are removed: " << removed << '\n';
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
-    try {
-      if (is_study)
-        make_study(study, parameters, directory, processes, out);
-      else
-        solve_scene(scene, parameters, directory, processes, line.verify, out);
-    } catch (...) {
-      report_earlier_files(out, directory);
-      throw;
-    }
+    if (is_study)
+      make_study(study, parameters, communicator, out);
+    else
+      solve_scene(scene, parameters, communicator, line.verify, out);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

@@ -127,7 +127,7 @@ protected:
     std::map<std::string, std::string> contents;
     if (fs::exists(directory / "out"))
       for (const auto& entry : fs::directory_iterator(directory / "out"))
-        if (entry.path().extension() != ".part" && entry.path().filename() != ".rollwave")
+        if (entry.path().extension() != ".part")
           contents[entry.path().filename().string()] = read(entry.path().filename().string());
     return contents;
   }
@@ -222,7 +222,7 @@ TEST_F(Faults, SignalsOfBatchSystemsInterruptHoweverOftenTheyCome) {
   for (const int signal : {SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU})
     EXPECT_EXIT(
         {
-          heed_interrupts();
+          install_signal_handlers();
           std::raise(signal);
           std::raise(signal);
           std::exit(is_interrupted(MPI_COMM_SELF) ? 2 : 0);
@@ -233,7 +233,7 @@ TEST_F(Faults, SignalsOfBatchSystemsInterruptHoweverOftenTheyCome) {
 TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
   EXPECT_EXIT(
       {
-        heed_interrupts();
+        install_signal_handlers();
         std::raise(SIGINT);
         const Parameters parameters = parameters_of({"Mesh/Adaptive cycles=1"});
         try {
@@ -249,7 +249,7 @@ TEST_F(Faults, InterruptedBeforeThereIsAResultSaysSo) {
 
 TEST_F(Faults, InterruptEndsAfterTheStepAtHand) {
   const auto simulate_interrupted = [](const std::vector<std::string>& assignments) {
-    heed_interrupts();
+    install_signal_handlers();
     const Parameters parameters = parameters_of(assignments);
     Scene scene = make_scene(parameters);
     scene.road = [road = scene.road](double z) {
@@ -279,7 +279,7 @@ TEST_F(Faults, InterruptedStudyKeepsItsRunsAndGoesOn) {
   fs::remove_all(directory / "out");
 
   RunningProgram program(arguments(study));
-  program.await("\n   2  ");
+  program.await("\n2 of ");
   const Outcome outcome = program.end_by(SIGINT);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_NE(outcome.text.find("of 6 runs; the same command goes on"), std::string::npos)
@@ -334,29 +334,6 @@ TEST_F(Faults, KilledWhileAFileGrowsLeavesNoneOfItsName) {
     EXPECT_EQ(program.end_by(SIGKILL).exit_code, 128 + SIGKILL);
   }
   EXPECT_FALSE(has("solution.vtu"));
-  // The next run removes what is left.
-  ASSERT_EQ(n_parts(), 1u);
-  ASSERT_EQ(run({}).exit_code, 0);
-  expect_no_partial_files();
-  EXPECT_TRUE(ends_with(read("solution.vtu"), "</VTKFile>\n"));
-}
-
-TEST_F(Faults, ADirectoryIsOfOneRunAtATime) {
-  RunningProgram first(arguments({"Mesh/Radial cells=40", "Mesh/Angular cells=1000"}));
-  first.await("Road");
-  const Outcome second = run({"Road/Distance=0.9"});
-  EXPECT_EQ(second.exit_code, 1);
-  EXPECT_NE(second.text.find("another run of rollwave writes into this directory"),
-            std::string::npos)
-      << second.text;
-  EXPECT_EQ(std::count(second.text.begin(), second.text.end(), '\n'), 1) << second.text;
-  EXPECT_EQ(first.end().exit_code, 0);
-  EXPECT_EQ(nlohmann::json::parse(read("summary.json"))["scene"]["road_distance"], 0.8);
-  // The kernel has released the directory of a run that is killed.
-  RunningProgram killed(arguments({"Mesh/Radial cells=40", "Mesh/Angular cells=1000"}));
-  killed.await("Road");
-  killed.end_by(SIGKILL);
-  EXPECT_EQ(run({"Road/Distance=0.9"}).exit_code, 0);
 }
 
 TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
@@ -375,7 +352,7 @@ TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
   for (unsigned int i = 0; i < 5; ++i) {
     RunningProgram program(arguments(study));
     if (i == 0)
-      program.await("\n   2  "); // of the table
+      program.await("\n2 of "); // of the table
     else
       std::this_thread::sleep_for(share(random) * duration);
     program.end_by(SIGKILL);
@@ -389,6 +366,23 @@ TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
   EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
   expect_no_partial_files();
 }
+
+#ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
+TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
+  const std::string lots = "4000000"; // KiB
+  for (const std::string most :
+       {"450000", "500000", "550000", "600000", "700000", "800000", lots.c_str()}) {
+    const Outcome outcome = shell("unset OPENBLAS_NUM_THREADS OMP_NUM_THREADS; ulimit -v " + most +
+                                  "; timeout -s KILL 60 $rollwave " + scene);
+    // The loader has no room for the libraries.
+    const bool is_loaded = outcome.text.find("shared librar") == std::string::npos;
+    if (most == lots)
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    else if (is_loaded)
+      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << most << outcome.text;
+  }
+}
+#endif
 
 TEST_F(Faults, FullDiskLeavesWhatFitsComplete) {
   ASSERT_EQ(run({}).exit_code, 0);
@@ -415,16 +409,6 @@ TEST_F(Faults, RemovedDirectoryIsMadeAgain) {
   const Outcome outcome = program.end();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_TRUE(has("summary.json"));
-
-  // A study that was moved aside still goes on in the place where it was begun.
-  const std::vector<std::string> study = {"Study/Vary=Road/Distance = 0.75 | 0.8 | 0.85",
-                                          "Mesh/Wanted relative error=0.002"};
-  RunningProgram studying(arguments(study));
-  studying.await("\n   1  ");
-  fs::rename(directory / "out", directory / "aside"); // at once, while files are written
-  EXPECT_EQ(studying.end().exit_code, 0);
-  const Outcome again = run(study);
-  EXPECT_NE(again.text.find("done before"), std::string::npos) << again.text;
 }
 
 TEST_F(Faults, DirectoryThatBecomesAFileIsAnError) {
@@ -468,20 +452,13 @@ TEST_F(Faults, GnuplotThatFailsCostsThePictureOnly) {
         << outcome.text;
     EXPECT_NE(outcome.text.find(reason), std::string::npos) << outcome.text;
     EXPECT_FALSE(has("scene.svg"));
+    EXPECT_TRUE(has("scene.gp"));
     EXPECT_TRUE(has("summary.json"));
   };
   expect_no_picture("gnuplot: not found");
   std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho '<svg'\necho no font >&2\nkill -9 $$\n";
   fs::permissions(bin / "gnuplot", fs::perms::owner_all);
   expect_no_picture("no font");
-}
-
-TEST_F(Faults, PicturesNeedNoTemporaryDirectory) {
-  for (const char* const place : {"", "/nonexistent", "/proc"}) {
-    fs::remove_all(directory / "out");
-    shell("TMPDIR=" + std::string(place) + " $rollwave " + scene);
-    EXPECT_TRUE(has("scene.svg")) << place;
-  }
 }
 
 // At a road that is nearer there is more contact, for which this rho is too large.

@@ -14,7 +14,8 @@ TEST_F(Program, WritesEveryFileOfTheContract) {
   const Outcome outcome = shell("$rollwave " + scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const std::vector<std::string> names = {"contact.csv", "parameters.prm", "solution.vtu",
-                                          "surface.vtu", "road.vtu",       "scene.svg"};
+                                          "surface.vtu", "road.vtu",       "scene.gp",
+                                          "scene.svg"};
   for (const std::string& name : names) {
     EXPECT_TRUE(has(name)) << name;
     EXPECT_NE(outcome.text.find(std::string("out/") + name), std::string::npos) << name;
@@ -67,26 +68,55 @@ TEST_F(Program, ReproducesARunFromItsParameters) {
   EXPECT_EQ(read("contact.csv"), first);
 }
 
-// What this program has written before goes; what is of others stays.
+// The files of an earlier run go; those of others stay.
 TEST_F(Program, LeavesNoFileOfAnEarlierRunAsItsOwn) {
-  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Output/Files=all'").exit_code, 0);
-  for (const char* foreign : {"solution.7.vtu", "solution.pvtu", "notes.part"})
+  ASSERT_EQ(shell("$rollwave " + scene +
+                  " --set 'Study/Vary=Mesh/Degree = 1 | 2' --set "
+                  "'Study/Files of each run=contact'")
+                .exit_code,
+            0);
+  ASSERT_TRUE(has("study-curves.svg") || has("study.svg"));
+  ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0);
+  for (const char* name : {"study.csv", "study.txt", "study.tex", "study-profiles.csv", "study.svg",
+                           "study.gp", "run-001/contact.csv"})
+    EXPECT_FALSE(has(name)) << name;
+  for (const char* foreign : {"solution.vtu.old", "study.ods", "notes.part"})
     std::ofstream(directory / "out" / foreign) << "mine";
-  const Outcome failing =
-      shell("$rollwave " + scene + " --set Contact/Method=uzawa --set 'Contact/Most steps=3'");
-  EXPECT_EQ(failing.exit_code, 2);
-  EXPECT_NE(failing.text.find("still holds files of an earlier run"), std::string::npos)
-      << failing.text;
-  EXPECT_TRUE(has("contact.csv"));
-  const Outcome fewer = shell("$rollwave " + scene + " --set 'Output/Files=summary'");
-  EXPECT_NE(fewer.text.find("removed, since they were of an earlier run: contact.csv"),
-            std::string::npos)
-      << fewer.text;
-  for (const char* name : {"contact.csv", "solution.vtu", "surface.vtu", "scene.svg"})
+  ASSERT_EQ(shell("$rollwave " + scene + " --set 'Output/Files=summary'").exit_code, 0);
+  for (const char* name : {"contact.csv", "solution.vtu", "surface.vtu", "scene.gp", "scene.svg"})
     EXPECT_FALSE(has(name)) << name;
   for (const char* name :
-       {"summary.json", "parameters.prm", "solution.7.vtu", "solution.pvtu", "notes.part"})
+       {"summary.json", "parameters.prm", "solution.vtu.old", "study.ods", "notes.part"})
     EXPECT_TRUE(has(name)) << name;
+}
+
+TEST_F(Program, TouchesNoFileWhereItHasNotRunBefore) {
+  fs::create_directories(directory / "out");
+  std::ofstream(directory / "out" / "study.txt") << "mine";
+  std::ofstream(directory / "out" / "parameters.prm") << "# mine\n";
+  ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0);
+  EXPECT_EQ(read("study.txt"), "mine");
+}
+
+TEST_F(Program, DrawsItsPicturesAgainFromTheirScripts) {
+  const std::string study = " --set 'Study/Vary=Road/Distance = 0.7 | 0.8; Cylinder/Angular "
+                            "velocity = 0.5 | 1' --set 'Study/True errors=true'";
+  for (const std::string& settings : {std::string(), study}) {
+    fs::remove_all(directory / "out");
+    ASSERT_EQ(shell("$rollwave " + scene + settings).exit_code, 0);
+    unsigned int n_pictures = 0;
+    for (const auto& entry : fs::directory_iterator(directory / "out"))
+      if (fs::path picture = entry.path(); picture.extension() == ".svg") {
+        const std::string name = picture.filename().string(), before = read(name);
+        EXPECT_NE(before.find("</svg>"), std::string::npos) << name;
+        fs::remove(picture);
+        const std::string script = "'" + picture.replace_extension(".gp").string() + "'";
+        EXPECT_EQ(shell("cd '" + (directory / "out").string() + "' && gnuplot " + script).text, "");
+        EXPECT_EQ(read(name), before);
+        ++n_pictures;
+      }
+    EXPECT_GE(n_pictures, settings.empty() ? 1u : 4u);
+  }
 }
 
 TEST_F(Program, NeverWritesOverTheFileItReads) {
@@ -220,7 +250,7 @@ TEST_F(Program, RunsAStudy) {
                                 " --set 'Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8 "
                                 "| 1.1' --set 'Study/Published steps=4, -, -, -, -, 1'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  for (const char* name : {"study.csv", "study.jsonl", "study.txt", "study.tex", "study.svg",
+  for (const char* name : {"study.csv", "study-profiles.csv", "study.txt", "study.tex", "study.svg",
                            "study-curves.svg", "study-profiles.svg", "parameters.prm"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_NE(outcome.text.find(read("study.txt")), std::string::npos);
@@ -268,23 +298,16 @@ TEST_F(Program, GoesOnWithAStudyThatWasStopped) {
       first += line + '\n';
     return first;
   };
-  const std::string kept = first_lines(read("study.csv"), 4);
+  const std::string whole = read("study.csv"), kept = first_lines(whole, 4);
   // As after a stop in the fourth run.
-  const std::string lines = first_lines(read("study.jsonl"), 3);
-  std::ofstream(directory / "out" / "study.jsonl") << lines;
+  std::ofstream(directory / "out" / "study.csv") << kept << "auto,3,1,,";
   const Outcome outcome = shell(study);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-  unsigned int skipped = 0;
-  for (auto at = outcome.text.find("done before"); at != std::string::npos;
-       at = outcome.text.find("done before", at + 1))
-    ++skipped;
-  EXPECT_EQ(skipped, 3u);
   // Finished rows are kept to the last digit, seconds included.
   EXPECT_EQ(read("study.csv").find(kept), 0u);
-  // Another study in the same place starts anew.
-  const Outcome other = shell(study + " --set Mesh/Angular\\ cells=48");
-  EXPECT_EQ(other.exit_code, 0) << other.text;
-  EXPECT_EQ(other.text.find("done before"), std::string::npos) << other.text;
+  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 7);
+  const std::string again = read("study.csv");
+  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 7);
 }
 
 TEST_F(Program, VerifiesAScene) {
@@ -380,7 +403,7 @@ TEST_F(Program, RunsNamedScenesOfAStudy) {
   EXPECT_EQ(csv.find("scene,Mesh/Degree,solved"), 0u) << csv;
   for (const char* const row : {"\nhairline,1,1", "\n\"fast, thin\",2,1"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
-  EXPECT_NE(shell(study).text.find("done before"), std::string::npos);
+  ASSERT_EQ(shell(study).exit_code, 0);
   EXPECT_EQ(read("study.csv"), csv);
   EXPECT_EQ(shell("$rollwave " + scene + " --set 'Study/Scenes=Road/Distance = 0.9'").exit_code, 1);
 }

@@ -1,5 +1,4 @@
 // Remarks say what the figures do not show, and are left out where there is nothing to say.
-#include "floating_point.h"
 #include "rollwave/run/simulation.h"
 #include "test_scenes.h"
 
@@ -80,10 +79,6 @@ TEST(Remarks, TellWhatTheWantedErrorNeeds) {
 }
 
 TEST(Remarks, TellWhenTheBoundSaysNothing) {
-  {
-    const UntrappedFloatingPoint untrapped; // the search for jumps ends at the pole
-    EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=1/(r-0.7123)"}), "there is no bound"));
-  }
   const auto hairline = remarks_with({"Road/Distance=0.999999"});
   EXPECT_TRUE(have(hairline, "no digit is certified"));
   EXPECT_TRUE(have(hairline, "held by 1 node"));

@@ -1,14 +1,9 @@
-// What the sanitizers are told: linked into the tests and loaded into the program under test.
+// Options of the sanitizers, linked into the tests and the program under test.
 
 /// Libraries stay loaded to the end, so that those that leak can be named: MPI would unload its
 /// plugins before.
 extern "C" int dlclose(void*) {
   return 0;
-}
-
-/// preloaded_traps.cc comes before the sanitizer's own library.
-extern "C" const char* __asan_default_options() {
-  return "verify_asan_link_order=0";
 }
 
 extern "C" const char* __ubsan_default_options() {

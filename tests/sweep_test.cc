@@ -117,7 +117,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
   Parameters parameters = parameters_of(assignments);
   parameters.output.directory = directory.string();
   Study study = plan_study(parameters);
-  run_study(study, parameters, directory, out);
+  run_study(study, parameters, out);
   std::filesystem::remove_all(directory);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];

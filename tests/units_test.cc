@@ -4,6 +4,7 @@
 #include "rollwave/output/screen_report.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/units.h"
+#include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_runner.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
@@ -115,13 +116,14 @@ TEST(Units, HoldForTheRowsOfAStudy) {
     const double unit = is_si ? b : 1;
     settings.push_back("Study/Vary=Road/Distance = " + digits(0.9 * unit) + " | " +
                        digits(0.7 * unit));
-    const Parameters parameters = parameters_of(settings);
-    const std::filesystem::path directory = own_path();
-    std::filesystem::remove_all(directory);
+    Parameters parameters = parameters_of(settings);
+    parameters.output.directory = own_path().string();
+    std::filesystem::remove_all(own_path());
+    std::filesystem::create_directory(own_path());
     std::ostringstream out;
     Study study = plan_study(parameters);
-    run_study(study, parameters, directory, out);
-    std::filesystem::remove_all(directory);
+    run_study(study, parameters, out);
+    std::filesystem::remove_all(own_path());
     return study;
   };
   const Study si = rows(true), one = rows(false);
@@ -132,7 +134,7 @@ TEST(Units, HoldForTheRowsOfAStudy) {
                                      {"energy_upper_bound", force_unit * b},
                                      {"patches", 1.}})
       EXPECT_NEAR(*si.figure(run, name) / unit / *one.figure(run, name), 1, 1e-12) << name;
-  EXPECT_NE(study_csv(si).find("vertical_load [N]"), std::string::npos);
+  EXPECT_NE(csv_header(si).find("vertical_load [N]"), std::string::npos);
 }
 
 TEST(Units, NameTheCriticalSpeedThatIsExceeded) {

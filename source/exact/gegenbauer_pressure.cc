@@ -3,30 +3,15 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 
-#include <cfenv>
 #include <cmath>
 
 namespace rollwave {
 
 namespace {
 
-/// Computes without stopping at floating-point exceptions while it lives, even where they trap.
-class NonStop {
-public:
-  NonStop() { std::feholdexcept(&environment); }
-  ~NonStop() { std::fesetenv(&environment); }
-  NonStop(const NonStop&) = delete;
-  NonStop& operator=(const NonStop&) = delete;
-
-private:
-  std::fenv_t environment;
-};
-
-/// J_order(x) in double precision throughout: long double would triple its cost. Boost computes Y
-/// beside it, and where nobody asks for Y compares NaN, an invalid operation without effect.
+/// J_order(x) in double precision throughout: long double would triple its cost.
 double bessel_j(double order, double x) {
   using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
-  const NonStop boost_compares_nan;
   return boost::math::cyl_bessel_j(order, x, Policy());
 }
 

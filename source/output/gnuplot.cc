@@ -1,67 +1,71 @@
 #include "rollwave/output/gnuplot.h"
 
+#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/text.h"
 
 #include <array>
-#include <cerrno>
+#include <cctype>
 #include <cstdio>
-#include <cstring>
-#include <memory>
-#include <sys/mman.h>
 
 namespace rollwave {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-struct Close {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
-/// A file in memory, which needs no directory that can be written; empty where there can be none.
-File open_in_memory(const std::string& content) {
-  const int descriptor = memfd_create("rollwave", 0);
-  File file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
-  if (file && (std::fputs(content.c_str(), file.get()) < 0 || std::fflush(file.get()) != 0))
-    file.reset();
-  return file;
+/// @p text with each single quote replaced.
+std::string with_quotes_as(const std::string& replacement, const std::string& text) {
+  std::string result;
+  for (const char letter : text)
+    result += letter == '\'' ? replacement : std::string(1, letter);
+  return result;
 }
 
-/// Where processes that this one starts find a file that it has open.
-std::string path_of(std::FILE* file) {
-  return "/dev/fd/" + std::to_string(fileno(file));
-}
-
-std::string read_all(std::FILE* file) {
-  std::string text;
-  std::array<char, 65536> buffer;
-  std::size_t count = 0;
-  while ((count = std::fread(buffer.data(), 1, buffer.size(), file)) > 0)
-    text.append(buffer.data(), count);
-  return text;
+/// Runs a command of the shell. Returns true if it succeeds. @param messages what it prints
+bool run(const std::string& command, std::string& messages) {
+  std::FILE* const pipe = popen(command.c_str(), "r");
+  if (!pipe)
+    return false;
+  std::array<char, 4096> buffer;
+  while (std::fgets(buffer.data(), buffer.size(), pipe))
+    messages += buffer.data();
+  return pclose(pipe) == 0;
 }
 
 } // namespace
 
-Picture draw(const std::string& script, unsigned int width, unsigned int height) {
-  const File commands = open_in_memory(
-      "set terminal svg noenhanced size " + std::to_string(width) + "," + std::to_string(height) +
-      " font 'Helvetica,14' background rgb 'white' fixed\n" + script);
-  const File messages = open_in_memory("");
-  std::FILE* pipe = nullptr;
-  // An interrupt is for this program, which still wants the picture of what it has.
-  if (commands && messages)
-    pipe = popen(("trap '' INT TERM HUP USR1 USR2 XCPU; exec gnuplot -d " +
-                  path_of(commands.get()) + " 2>" + path_of(messages.get()))
-                     .c_str(),
-                 "r");
-  if (!pipe)
-    return {"", std::string("gnuplot cannot be started: ") + std::strerror(errno)};
-  const std::string svg = read_all(pipe);
-  if (pclose(pipe) == 0 && !svg.empty())
-    return {svg, ""};
-  std::rewind(messages.get());
-  return {"", "gnuplot has failed: " + printable(trimmed(read_all(messages.get())))};
+std::string in_single_quotes(const std::string& text) {
+  std::string line = with_quotes_as("''", text);
+  for (char& letter : line)
+    if (std::iscntrl(static_cast<unsigned char>(letter)))
+      letter = ' '; // the end of a line would end the string
+  return '\'' + line + '\'';
+}
+
+void draw(const Picture& picture, const fs::path& directory, const std::string& name,
+          WrittenFiles& written) {
+  const std::string script = name + ".gp", svg = name + ".svg";
+  written.write(directory / script,
+                "# gnuplot " + script + " draws " + svg + "\nif (!exists('picture')) picture = '" +
+                    svg + "'\nset terminal svg noenhanced size " + std::to_string(picture.width) +
+                    ',' + std::to_string(picture.height) +
+                    " font 'Helvetica,14' background rgb 'white' fixed\nset encoding utf8\n"
+                    "set output picture\n" +
+                    picture.script + "set output\n");
+  AtomicFile file(directory / svg);
+  std::string messages;
+  if (run("cd '" + with_quotes_as("'\\''", fs::absolute(directory).string()) +
+              "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() + "'\" " +
+              script + " 2>&1",
+          messages)) {
+    written.n_bytes += file.commit();
+    written.files.push_back(directory / svg);
+  } else {
+    std::error_code ignored;
+    fs::remove(directory / svg, ignored); // it would be that of an earlier run
+    written.remarks.push_back(svg + " was not drawn: gnuplot has failed: " +
+                              printable(trimmed(messages)) + "; its script is " + script);
+  }
 }
 
 } // namespace rollwave

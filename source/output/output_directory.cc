@@ -5,134 +5,148 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cstring>
-#include <fcntl.h>
 #include <fstream>
-#include <ostream>
-#include <sys/file.h>
+#include <functional>
+#include <map>
+#include <optional>
+#include <regex>
+#include <sstream>
+#include <system_error>
 #include <unistd.h>
 
 namespace rollwave {
 
 namespace fs = std::filesystem;
 
-void write_parameters(std::ostream& out, const Parameters& parameters) {
-  out << "# All parameters of a run of " << version_text() << ".\n\n";
-  print_parameters(out, parameters.settings);
+namespace {
+
+/// The files that runs write, and for the run of a scene the kind that asks for them. A further
+/// output file is added here: later runs that do not write it remove it.
+const std::map<std::string, std::optional<OutputFile>> own_files = {
+    {"summary.json", OutputFile::summary},
+    {"contact.csv", OutputFile::contact},
+    {"parameters.prm", OutputFile::parameters},
+    {"solution.vtu", OutputFile::solution},
+    {"solution.pvtu", {}}, // on several processes, with solution.0.vtu and so on
+    {"surface.vtu", OutputFile::surface},
+    {"road.vtu", OutputFile::surface},
+    {"scene.gp", OutputFile::plot},
+    {"scene.svg", OutputFile::plot},
+    {"study.csv", {}},
+    {"study.txt", {}},
+    {"study.tex", {}},
+    {"study.pvd", {}},
+    {"study-profiles.csv", {}}};
+
+/// True for files that have numbers in their names, and for the pictures of studies.
+bool is_of_own_series(const std::string& name) {
+  static const std::regex series(
+      R"(solution\.\d+\.vtu|study(-(curves|profiles|map|h|unknowns|time))?\.(gp|svg))");
+  return std::regex_match(name, series);
 }
 
+constexpr const char* first_words = "# All parameters of a run of ";
+
+std::string complete_parameters(const Parameters& parameters) {
+  std::ostringstream text;
+  text << first_words << version_text() << ".\n\n";
+  print_parameters(text, parameters.settings);
+  return text.str();
+}
+
+std::string read(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+/// True if @p path is the parameter file that was read.
 bool is_input(const Parameters& parameters, const fs::path& path) {
   std::error_code ignored; // where one of them is not there, they differ
   return fs::equivalent(parameters.file, path, ignored);
 }
 
-std::string set_study_aside(const fs::path& directory) {
-  const auto exists = [&](const std::string& name) {
-    return fs::exists(directory / (name + ".csv")) || fs::exists(directory / (name + ".jsonl"));
-  };
-  if (!exists("study"))
-    return "";
-  std::string kept = "study-before";
-  for (unsigned int number = 2; exists(kept); ++number)
-    kept = "study-before-" + std::to_string(number);
-  for (const std::string ending : {".jsonl", ".csv"}) {
-    std::error_code error;
-    if (fs::exists(directory / ("study" + ending), error))
-      fs::rename(directory / ("study" + ending), directory / (kept + ending), error);
-    if (error)
-      throw NotWritten((directory / ("study" + ending)).string() +
-                       " could not be moved: " + error.message());
+/// Removes the own files of a directory that are not @p kept.
+void remove_files(const fs::path& directory, const Parameters& parameters,
+                  const std::function<bool(const std::string&)>& kept,
+                  std::vector<std::string>& removed) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if ((own_files.count(name) > 0 || is_of_own_series(name)) && !kept(name) &&
+        entry.symlink_status(ignored).type() == fs::file_type::regular &&
+        !is_input(parameters, entry.path()))
+      files.push_back(entry.path());
   }
-  return kept;
+  for (const fs::path& file : files)
+    if (fs::remove(file, ignored))
+      removed.push_back(file.lexically_relative(parameters.output.directory).string());
 }
 
-OutputDirectory::OutputDirectory(const Parameters& parameters, MPI_Comm communicator)
-    : directory(parameters.output.directory), parameters(parameters) {
-  if (process_number(communicator) > 0) {
-    share_text(communicator, ""); // when it is there
-    return;
-  }
-  const auto refuse = [](const std::string& why) { throw BadValue("Output", "Directory", why); };
+std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameters, bool is_study,
+                                                     bool is_alone) {
+  const fs::path directory = parameters.output.directory;
+  std::vector<std::string> removed;
+  if (read(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
+      (is_study && is_of_same_run(parameters))) // which goes on
+    return removed;
+  remove_files(
+      directory, parameters,
+      [&](const std::string& name) {
+        const auto own = own_files.find(name);
+        return !is_study && own != own_files.end() && own->second &&
+               parameters.wants(*own->second) && (is_alone || name != "solution.vtu");
+      },
+      removed);
+  static const std::regex of_one_run(R"(run-\d{3,})");
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(directory, ignored))
+    if (std::regex_match(entry.path().filename().string(), of_one_run)) {
+      remove_files(
+          entry.path(), parameters, [](const std::string&) { return false; }, removed);
+      fs::remove(entry.path(), ignored); // if it is empty
+    }
+  return removed;
+}
+
+} // namespace
+
+void WrittenFiles::write(const fs::path& path, const std::string& content) {
+  n_bytes += write_file(path, content);
+  files.push_back(path);
+}
+
+void write_parameters(const fs::path& directory, const Parameters& parameters,
+                      WrittenFiles& written) {
+  const fs::path path = directory / "parameters.prm";
+  if (is_input(parameters, path))
+    written.remarks.push_back("parameters.prm is the file that was read, and is left as it is");
+  else
+    written.write(path, complete_parameters(parameters));
+}
+
+bool is_of_same_run(const Parameters& parameters) {
+  return read(fs::path(parameters.output.directory) / "parameters.prm") ==
+         complete_parameters(parameters);
+}
+
+std::vector<std::string> prepare_directory(const Parameters& parameters, bool is_study,
+                                           MPI_Comm communicator) {
+  if (process_number(communicator) > 0)
+    return {};
+  const fs::path directory = parameters.output.directory;
   std::error_code error;
   fs::create_directories(directory, error);
   if (error == std::errc::no_space_on_device)
     throw NotWritten(directory.string() + " could not be made: " + error.message());
-  if (!error) {
-    record = open((directory / record_name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (record < 0)
-      error.assign(errno, std::generic_category());
-  }
+  if (!error && access(directory.c_str(), W_OK) != 0)
+    error.assign(errno, std::generic_category());
   if (error)
-    refuse("this directory cannot be made or written into: " + error.message());
-  const bool is_locked = flock(record, LOCK_EX | LOCK_NB) == 0;
-  if (!is_locked && errno == EWOULDBLOCK) {
-    close(record);
-    refuse("another run of rollwave writes into this directory; wait for its end, or choose "
-           "another directory");
-  }
-  n_earlier = recorded().size();
-  std::error_code ignored;
-  std::vector<fs::path> abandoned;
-  if (is_locked) // which not every file system can
-    for (const auto& entry : fs::directory_iterator(directory, ignored))
-      if (is_abandoned_part(entry.path()))
-        abandoned.push_back(entry.path());
-  for (const fs::path& part : abandoned)
-    fs::remove(part, ignored);
-  share_text(communicator, "");
-}
-
-OutputDirectory::~OutputDirectory() {
-  if (record >= 0)
-    close(record);
-}
-
-std::vector<std::string> OutputDirectory::recorded() const {
-  std::vector<std::string> names;
-  std::ifstream in(directory / record_name);
-  for (std::string name; std::getline(in, name);)
-    names.push_back(name);
-  return names;
-}
-
-std::vector<std::string> OutputDirectory::files_of_earlier_runs() const {
-  const std::vector<std::string> names = recorded();
-  const auto own = names.begin() + std::min(n_earlier, names.size());
-  std::vector<std::string> earlier;
-  std::error_code ignored;
-  for (auto name = names.begin(); name != own; ++name)
-    if (std::find(own, names.end(), *name) == names.end() &&
-        std::find(names.begin(), name, *name) == name && fs::path(*name).filename() == *name &&
-        fs::is_regular_file(fs::symlink_status(directory / *name, ignored)) &&
-        !is_input(parameters, directory / *name))
-      earlier.push_back(*name);
-  return earlier;
-}
-
-void OutputDirectory::remove_files_of_earlier_runs(WrittenFiles& written) {
-  if (record < 0)
-    return;
-  for (const fs::path& file : written.files)
-    record_file(file); // also what this run has found as it would write it
-  std::string removed;
-  std::error_code ignored;
-  for (const std::string& name : files_of_earlier_runs())
-    if (name == "study.csv" || name == "study.jsonl") {
-      if (const std::string kept = set_study_aside(directory); !kept.empty())
-        written.remarks.push_back("study.csv is of an earlier run, and kept as " + kept + ".csv");
-    } else if (fs::remove(directory / name, ignored))
-      removed += (removed.empty() ? "" : ", ") + name;
-  if (!removed.empty())
-    written.remarks.push_back("removed, since they were of an earlier run: " + removed);
-  // The record is locked, so that it cannot be replaced by another file.
-  std::string names;
-  for (const fs::path& file : written.files)
-    names += file.filename().string() + '\n';
-  if (pwrite(record, names.data(), names.size(), 0) == static_cast<ssize_t>(names.size()) &&
-      ftruncate(record, names.size()) == 0)
-    n_earlier = 0;
+    throw BadValue("Output", "Directory",
+                   "this directory cannot be made or written into: " + error.message());
+  return remove_files_of_earlier_run(parameters, is_study, is_alone(communicator));
 }
 
 } // namespace rollwave

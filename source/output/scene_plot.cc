@@ -158,8 +158,9 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << "set ylabel 'pressure" << pressure_unit(scene.units) << "'\n" << pressure;
-  return draw(script.str(), width, height);
+  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units)) << '\n'
+         << pressure << "unset multiplot\n";
+  return {script.str(), width, height};
 }
 
 } // namespace rollwave

@@ -20,7 +20,6 @@ Options:
   --verify                    compare the results with the exact solution of the scene
   --output DIR                the directory for the files, else the file's, or output/FILE
   --set "Section/Key=value"   overrides the file; may be repeated
-  --single                    solve alone, though a launcher tells of further processes
 
 Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 )";
@@ -51,8 +50,6 @@ CommandLine read_command_line(const std::vector<std::string>& given) {
       line.action = CommandLine::Action::parameters;
     else if (*argument == "--verify")
       line.verify = true;
-    else if (*argument == "--single")
-      line.is_single = true;
     else if (*argument == "--output")
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
     else if (*argument == "--set")

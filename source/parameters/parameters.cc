@@ -118,16 +118,16 @@ void declare_mesh(Keys& keys, Parameters& p) {
            {Affects::resolution});
   keys.add_choice<Indicator>(
       "Indicator", p.mesh.indicator,
-      {{"residual", Indicator::residual}, {"kelly", Indicator::kelly}},
-      "What tells where to refine. \"residual\": residuals and contact conditions on each cell. "
-      "\"kelly\": jumps of the normal derivative, for comparison.");
+      {{"certificate", Indicator::certificate}, {"kelly", Indicator::kelly}},
+      "What tells where to refine. \"certificate\": each cell's share of the error bound. "
+      "\"kelly\": jumps of the normal derivative, which are also taken where "
+      "Certificate/Error bound is false.");
   keys.add_choice<Marking>(
-      "Marking", p.mesh.marking,
-      {{"bulk", Marking::bulk}, {"number", Marking::number}, {"all", Marking::all}},
+      "Marking", p.mesh.marking, {{"bulk", Marking::bulk}, {"all", Marking::all}},
       "Which cells to refine. \"bulk\": the fewest that hold the marked fraction of the squared "
-      "error. \"number\": the marked fraction of all cells. \"all\": every cell.");
+      "error. \"all\": every cell.");
   keys.add("Marked fraction", p.mesh.marked_fraction, Patterns::Double(0.01, 1),
-           "Fraction used by Marking, from 0.01 to 1.");
+           "Fraction used by Marking = bulk, from 0.01 to 1.");
   keys.add("Most unknowns", p.mesh.most_unknowns, Patterns::Integer(1),
            "Largest number of unknowns, 1 or more: a larger mesh is refused; adaptive refinement "
            "ends below it.",

@@ -178,10 +178,6 @@ void declare_study(Keys& keys, StudyOptions& study) {
       "Files to write for each run of a study, any of those of Output/Files, into run-001, "
       "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
       "all fields for ParaView.");
-  keys.add("Processes per scene", study.processes_per_scene, Patterns::Integer(0),
-           "Under MPI with a number greater than 0, as many processes make a run and several "
-           "runs are made at the same time; one process hands them out. 0: all processes "
-           "make each run together.");
 }
 
 } // namespace rollwave

@@ -3,44 +3,19 @@
 #include "rollwave/base/errors.h"
 
 #include <cholmod.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <string>
-
-/**
- * OpenMP's parallel regions, as GCC compiles them, call GOMP_parallel (manual of libgomp,
- * "Implementing PARALLEL construct"). Here it stands before that of libgomp and leaves the @p
- * region to the calling thread. CHOLMOD enters one for each of the small blocks that it adds to
- * another, and libgomp would make a team each time, even of one thread: two fifths of a
- * factorisation. A CHOLMOD that clang has compiled does not call it.
- *
- * No team of OpenMP may be active around a call. An OpenBLAS with OpenMP, whose threads would wait
- * for each other, asks omp_get_max_threads and enters no region then; nothing else that Rollwave
- * uses has any.
- */
-extern "C" {
-__attribute__((visibility("default"))) void GOMP_parallel(void (*region)(void*), void* data,
-                                                          unsigned int /*n_threads*/,
-                                                          unsigned int /*flags*/) {
-  region(data);
-}
-
-__attribute__((visibility("default"))) int omp_get_max_threads() {
-  return 1;
-}
-}
 
 namespace rollwave {
 
 /// CHOLMOD's objects, released together.
 struct CholmodFactor::Cholmod {
-  const bool saves_memory;
   cholmod_common common;
   cholmod_sparse* matrix = nullptr;
   cholmod_factor* factor = nullptr;
 
-  explicit Cholmod(int n) : saves_memory(n >= 400000) { // with fewer all stays below half a GiB
+  Cholmod() {
     cholmod_start(&common);
     common.supernodal = CHOLMOD_SUPERNODAL;
     common.print = 0;
@@ -49,24 +24,20 @@ struct CholmodFactor::Cholmod {
     common.nmethods = 1;
     common.method[0].ordering = CHOLMOD_NATURAL;
     common.postorder = 0;
+#if CHOLMOD_MAIN_VERSION >= 4
+    // Each small block that is added to another would wait for a team of threads.
+    common.nthreads_max = 1;
+#endif
   }
 
   ~Cholmod() {
     cholmod_free_factor(&factor, &common);
     cholmod_free_sparse(&matrix, &common);
     cholmod_finish(&common);
-    release();
   }
 
   Cholmod(const Cholmod&) = delete;
   Cholmod& operator=(const Cholmod&) = delete;
-
-  /// Gives freed memory back to the system where that matters. Elsewhere the next factorisation
-  /// would wait for every page of it again.
-  void release() const {
-    if (saves_memory)
-      malloc_trim(0);
-  }
 
   void check(const std::string& step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
@@ -100,7 +71,7 @@ struct CholmodFactor::Cholmod {
   }
 };
 
-CholmodFactor::CholmodFactor(int n) : cholmod(std::make_unique<Cholmod>(n)), n(n) {}
+CholmodFactor::CholmodFactor(int n) : cholmod(std::make_unique<Cholmod>()), n(n) {}
 
 void CholmodFactor::set_matrix(const LowerTriplets& triplets) {
   cholmod_triplet view = {};
@@ -124,13 +95,8 @@ void CholmodFactor::set_matrix(const LowerTriplets& triplets) {
 CholmodFactor::~CholmodFactor() = default;
 
 void CholmodFactor::factorise() {
-  // Mesh, assembly and ordering leave much free memory behind, in pieces that a large factor does
-  // not fit.
-  cholmod_free_work(&cholmod->common);
-  cholmod->release();
   cholmod_factorize(cholmod->matrix, cholmod->factor, &cholmod->common);
   cholmod_free_work(&cholmod->common);
-  cholmod->release();
   cholmod->check("factorisation");
 }
 

@@ -1,9 +1,7 @@
 #include "rollwave/study/study_files.h"
 
 #include "rollwave/adapt/marking.h"
-#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/text.h"
-#include "rollwave/parameters/parameters.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
@@ -14,7 +12,6 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
-#include <limits>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -27,9 +24,7 @@ using namespace dealii;
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// The numbers that a key takes in all runs; none where it has a value that is no number.
+/// The numbers that a key takes in all runs, without entries where one of its values is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
   std::vector<double> numbers;
   try {
@@ -41,11 +36,7 @@ std::vector<double> numbers_of(const Study& study, unsigned int key) {
   return numbers;
 }
 
-/// Those of a study have names in common.
-Units units_of(const Study& study) {
-  return {1, study.plans.front().parameters.material};
-}
-
+/// True for the keys of the scene, false for those of the method.
 bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
 }
@@ -64,7 +55,7 @@ std::string title_of(const Study& study) {
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
     if (is_shared && is_named && setting.value != "none")
-      title += (title.empty() ? "" : ", ") + told(setting, units_of(study));
+      title += (title.empty() ? "" : ", ") + told(setting, study.units());
   }
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
@@ -82,15 +73,15 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The keys before them change together with the text.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], study.figure(run, figure).value_or(nothing));
+    curves.back().points.emplace_back(x[run], study.figure(run, figure).value_or(not_known));
     if (study.has(marks))
-      curves.back().marks.emplace_back(x[run], study.figure(run, marks).value_or(nothing));
+      curves.back().marks.emplace_back(x[run], study.figure(run, marks).value_or(not_known));
   }
   return curves;
 }
 
 std::string x_label_of(const Study& study) {
-  return words(study.plans.front().varied[study.first_keys.back()], units_of(study));
+  return words(study.plans.front().varied[study.first_keys.back()], study.units());
 }
 
 /// Loads, stiffness, half-width and pressure over the key that varies fastest.
@@ -103,7 +94,7 @@ std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
         {"stiffness_vertical_load", "vertical stiffness", Quantity::stiffness},
         {"half_width", "half-width of contact (angle)", Quantity::angle},
         {"peak_pressure", "peak pressure", Quantity::pressure}})
-    panels.push_back({x_label_of(study), name + units_of(study).in_brackets(quantity),
+    panels.push_back({x_label_of(study), name + study.units().in_brackets(quantity),
                       curves_of(study, x, figure)});
   return panels;
 }
@@ -115,14 +106,13 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   Panel panel{x_label, "relative error in the energy norm", {}, true, true};
   std::set<double> slopes;
   for (const Family& family : find_families(study)) {
-    if (x == "h_max" && (family.is_adaptive || !family.is_cut_alike))
+    if (x == "h_max" && family.is_adaptive)
       continue;
     Curve curve{family.name, {}};
     for (const unsigned int run : family.runs) {
       if (study.figure(run, x) && study.figure(run, "error_relative"))
         curve.points.emplace_back(*study.figure(run, x), *study.figure(run, "error_relative"));
-      if (const auto order = study.figure(run, "expected_order");
-          order && order_factor != 0 && family.is_cut_alike)
+      if (const auto order = study.figure(run, "expected_order"); order && order_factor != 0)
         slopes.insert(order_factor * *order);
     }
     std::sort(curve.points.begin(), curve.points.end());
@@ -156,7 +146,7 @@ std::vector<unsigned int> runs_to_show(const Study& study) {
 
 Panel profiles(const Study& study) {
   Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
-              "contact pressure" + units_of(study).in_brackets(Quantity::pressure),
+              "contact pressure" + study.units().in_brackets(Quantity::pressure),
               {}};
   for (const unsigned int run : runs_to_show(study))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
@@ -182,47 +172,45 @@ std::optional<Picture> map_of_load(const Study& study) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
     lines.back().push_back(
-        {{x[run], y[run], study.figure(run, "vertical_load").value_or(nothing)}});
+        {{x[run], y[run], study.figure(run, "vertical_load").value_or(not_known)}});
   }
-  const Units units = units_of(study);
+  const Units units = study.units();
   return plot_map(title_of(study), words(varied[0], units),
                   words(varied[study.first_keys[1]], units),
                   "vertical load" + units.in_brackets(Quantity::force), lines);
 }
 
-/// The plots by their names.
-std::vector<std::pair<std::string, Picture>> draw_study(const Study& study) {
-  std::vector<std::pair<std::string, Picture>> pictures;
+/// Draws the plots that a study has data for.
+void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written) {
   const std::string title = title_of(study);
   const auto add = [&](const std::string& name, const std::vector<Panel>& panels,
                        const std::string& remark = "") {
     if (!panels.front().curves.empty())
-      pictures.emplace_back(name, plot_panels(title + remark, panels));
+      draw(plot_panels(title + remark, panels), directory, name, written);
   };
   const auto x =
       study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
-  if (auto map = map_of_load(study))
-    pictures.emplace_back("study-map.svg", std::move(*map));
+  if (const auto map = map_of_load(study))
+    draw(*map, directory, "study-map", written);
   if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
     if (!x.empty())
-      add("study-curves.svg", curves(study, x));
+      add("study-curves", curves(study, x));
     const Panel panel = profiles(study);
     const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
-    add("study-profiles.svg", {panel},
+    add("study-profiles", {panel},
         n_shown == n_runs
             ? ""
             : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
   }
   if (study.has("error_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
-         {std::tuple("study-h.svg", "h_max", "largest diameter of a cell h", 1.),
-          {"study-unknowns.svg", "dofs", "unknowns", -0.5},
-          {"study-time.svg", "seconds", "seconds", 0.}})
+         {std::tuple("study-h", "h_max", "largest diameter of a cell h", 1.),
+          {"study-unknowns", "dofs", "unknowns", -0.5},
+          {"study-time", "seconds", "seconds", 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())
-    add("study.svg", {{x_label_of(study), "contact steps",
-                       curves_of(study, x, "contact_steps", "published_steps"), false, true}});
-  return pictures;
+    add("study", {{x_label_of(study), "contact steps",
+                   curves_of(study, x, "contact_steps", "published_steps"), false, true}});
 }
 
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
@@ -244,36 +232,23 @@ std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
 
 } // namespace
 
-WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
-                         const Study& study) {
+WrittenFiles write_study(const Parameters& parameters, const Study& study) {
+  const std::filesystem::path directory = parameters.output.directory;
   WrittenFiles written;
-  for (const char* const name : {"study.csv", "study.jsonl", "parameters.prm"})
+  for (const char* const name : {"study.csv", "study-profiles.csv", "parameters.prm"})
     written.files.push_back(directory / name);
-  const auto add = [&](const std::string& name, const std::string& content) {
-    write_file(directory / name, content);
-    written.files.push_back(directory / name);
-  };
-  const StudyTable table(study);
   std::ostringstream text;
-  text << table.header();
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run])
-      text << table.row(run);
+  text << table_as_text(study);
   print_study_notes(text, study);
-  add("study.txt", text.str());
-  add("study.tex", table.tex());
+  written.write(directory / "study.txt", text.str());
+  written.write(directory / "study.tex", table_as_tex(study));
   const auto& kinds = parameters.study.files_of_each_run;
-  if (std::count(kinds.begin(), kinds.end(), OutputFile::solution) > 0)
-    add("study.pvd", pvd_of(study, directory));
+  if (kinds.count(OutputFile::solution) > 0)
+    written.write(directory / "study.pvd", pvd_of(study, directory));
   const bool is_solved = std::any_of(study.runs.begin(), study.runs.end(),
                                      [](const auto& run) { return run && run->is_solved(); });
-  if (parameters.wants(OutputFile::plot) && is_solved) {
-    for (const auto& [name, picture] : draw_study(study))
-      if (picture.failure.empty())
-        add(name, picture.svg);
-      else
-        written.remarks.push_back(name + " was not drawn: " + picture.failure);
-  }
+  if (parameters.wants(OutputFile::plot) && is_solved)
+    draw_study(study, directory, written);
   return written;
 }
 

@@ -29,20 +29,6 @@ std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& var
   return all;
 }
 
-/// Its numbers in their shortest form: 0.9 for 0.90.
-std::string shortest(const std::string& value) {
-  std::string text;
-  for (const std::string& part : split(value, ',')) {
-    text += text.empty() ? "" : ", ";
-    try {
-      text += shortest_text(to_number(part));
-    } catch (const std::invalid_argument&) {
-      text += part;
-    }
-  }
-  return text;
-}
-
 void check(const Parameters& parameters, unsigned int n_processes) {
   try {
     make_scene(parameters);
@@ -60,18 +46,6 @@ std::vector<Setting> common_settings(const Parameters& study) {
         setting.path() != "Output/Files")
       common.push_back(setting);
   return common;
-}
-
-/// What a run depends on, see RunPlan::identity.
-std::map<std::string, std::string> identity_of(const Parameters& run) {
-  std::map<std::string, std::string> identity;
-  for (const Setting& setting : run.settings) {
-    const Key& key = key_of(setting);
-    const std::string value = shortest(value_of(key, run.settings));
-    if (key.affects != Affects::files && value != shortest(key.default_value))
-      identity[key.path()] = value;
-  }
-  return identity;
 }
 
 /// Refuses a varied key that belongs to Uzawa's method where no run uses that.
@@ -98,11 +72,8 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
       std::vector<Setting> settings = common;
       settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
       settings.insert(settings.end(), varied.begin(), varied.end());
-      plans.push_back({scene.name, varied, {}, read_parameters(settings), {}});
+      plans.push_back({scene.name, varied, {}, read_parameters(settings)});
       check(plans.back().parameters, n_processes);
-      plans.back().identity = identity_of(plans.back().parameters);
-      if (parameters.study.true_errors)
-        plans.back().identity["Study/True errors"] = "true";
     }
   check_method(plans);
   const auto& published = parameters.study.published_steps;

@@ -18,14 +18,6 @@ const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc7
                                           "#000000", "#e69f00", "#56b4e9", "#8b4513",
                                           "#7a3fbf", "#808000", "#d00030", "#707070"};
 
-/// For gnuplot, in single quotes.
-std::string quoted(const std::string& text) {
-  std::string doubled;
-  for (const char letter : text)
-    doubled += letter == '\'' ? "''" : std::string(1, letter);
-  return '\'' + doubled + '\'';
-}
-
 /// With all digits that a picture can show.
 std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
@@ -58,7 +50,8 @@ std::string style(unsigned int curve, std::size_t n_points) {
 /// The command that plots a panel, with its data. @param legend_rows of the legend of all panels; 0
 /// for none
 void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
-  script << "set xlabel " << quoted(panel.x_label) << "\nset ylabel " << quoted(panel.y_label);
+  script << "set xlabel " << in_single_quotes(panel.x_label) << "\nset ylabel "
+         << in_single_quotes(panel.y_label);
   if (legend_rows > 0)
     script << "\nset key at screen 0.5, 0.01 center bottom vertical maxrows " << legend_rows;
   else
@@ -72,7 +65,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   auto add = [&, is_first = true](const Points& points, unsigned int curve,
                                   const std::string& style, const std::string& title) mutable {
     script << (is_first ? "" : ", ") << "'-' with " << style << " linewidth 2 linecolor rgb '"
-           << colours[curve] << "' title " << quoted(title);
+           << colours[curve] << "' title " << in_single_quotes(title);
     write_points(data, points);
     is_first = false;
   };
@@ -114,7 +107,7 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
     panel.curves = distinct(panel.curves);
   std::ostringstream script;
   script.precision(9);
-  script << "set encoding utf8\nset grid\nset datafile missing 'NaN'\n";
+  script << "set grid\nset datafile missing 'NaN'\n";
   const bool is_single = panels.size() == 1;
   unsigned int n_titles = panels[0].slopes.size(), longest = 0;
   for (const Curve& curve : panels[0].curves) {
@@ -129,21 +122,21 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                      legend_rows =
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
-  script << "set multiplot layout " << rows << ',' << columns << " title " << quoted(title)
-         << " margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
+  script << "set multiplot layout " << rows << ',' << columns << " title "
+         << in_single_quotes(title) << " margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
          << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
-  return draw(script.str(), width, height);
+  return {script.str(), width, height};
 }
 
 Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
                  const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
   std::ostringstream script;
-  script << "set encoding utf8\n$map << EOD\n";
+  script << "$map << EOD\n";
   for (const auto& line : lines) {
     for (const auto& [x, y, value] : line)
       script << plotted(x) << ' ' << plotted(y) << ' ' << plotted(value) << '\n';
@@ -153,11 +146,12 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
             "unset surface\nset table $contours\nsplot $map\nunset table\nunset contour\n"
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
-         << quoted(title) << "\nset xlabel " << quoted(x_label) << "\nset ylabel "
-         << quoted(y_label) << "\nset cblabel " << quoted(value_label)
+         << in_single_quotes(title) << "\nset xlabel " << in_single_quotes(x_label)
+         << "\nset ylabel " << in_single_quotes(y_label) << "\nset cblabel "
+         << in_single_quotes(value_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1\n";
-  return draw(script.str(), 760, 560);
+  return {script.str(), 760, 560};
 }
 
 } // namespace rollwave

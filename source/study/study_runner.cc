@@ -4,160 +4,79 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/base/task_farm.h"
 #include "rollwave/output/output_directory.h"
-#include "rollwave/study/study_bench.h"
+#include "rollwave/study/study_csv.h"
+#include "rollwave/study/study_solver.h"
 #include "rollwave/study/study_table.h"
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
-#include <optional>
 #include <ostream>
-#include <set>
 #include <sstream>
-#include <utility>
 
 namespace rollwave {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-/// Whether a run has no need to be made again.
-bool is_final(const StudyRun& run, const Parameters& study, const fs::path& directory) {
-  if (!run.failure.empty() && !run.is_refused)
-    return false;
-  if (run.is_refused)
-    return true;
-  const auto has = [&](const char* name) { return fs::exists(directory / run.files / name); };
-  const auto& kinds = study.study.files_of_each_run;
-  return std::all_of(kinds.begin(), kinds.end(), [&](OutputFile kind) {
-    return !run.files.empty() &&
-           (kind == OutputFile::plot || (kind == OutputFile::summary && has("summary.json")) ||
-            (kind == OutputFile::contact && has("contact.csv")) ||
-            (kind == OutputFile::parameters && has("parameters.prm")) ||
-            (kind == OutputFile::surface && has("surface.vtu")) ||
-            (kind == OutputFile::solution && (has("solution.vtu") || has("solution.pvtu"))));
-  });
-}
+namespace {
 
-/// Of an earlier call the lines of runs that need not be made again; a table with other runs is set
-/// aside.
-std::string earlier_runs(const Parameters& parameters, const fs::path& directory,
-                         const std::vector<RunPlan>& plans, std::ostream& out) {
+std::string text_of(const fs::path& directory, const std::string& name) {
   std::ostringstream text;
-  text << std::ifstream(directory / "study.jsonl").rdbuf();
-  const auto runs = read_study_runs(text.str());
-  std::map<std::map<std::string, std::string>, const RunPlan*> plan_of;
-  for (const RunPlan& plan : plans)
-    plan_of[plan.identity] = &plan;
-  std::string kept;
-  bool has_others = runs.empty() && fs::exists(directory / "study.csv");
-  for (const auto& [identity, run] : runs)
-    if (const auto plan = plan_of.find(identity); plan == plan_of.end())
-      has_others = true;
-    else if (is_final(run, parameters, directory))
-      kept += study_line(*plan->second, run) + '\n';
-  if (has_others)
-    out << "Note: study.csv has rows of other runs, and is kept as " << set_study_aside(directory)
-        << ".csv\n";
-  return kept;
+  text << std::ifstream(directory / name).rdbuf();
+  return text.str();
 }
 
-void adopt(const std::string& earlier, Study& study) {
-  const auto runs = read_study_runs(earlier);
-  const std::map<std::map<std::string, std::string>, StudyRun> run_of(runs.begin(), runs.end());
-  for (unsigned int i = 0; i < study.plans.size(); ++i)
-    if (const auto run = run_of.find(study.plans[i].identity); run != run_of.end())
-      study.runs[i] = run->second;
-}
-
-/// The directories of the files of runs that are to be made: run-001 and so on, without those that
-/// earlier runs have.
-std::vector<std::string> choose_directories(const Study& study) {
-  std::set<std::string> taken;
-  for (const auto& run : study.runs)
-    if (run)
-      taken.insert(run->files);
-  std::vector<std::string> directories(study.runs.size());
-  unsigned int number = 0;
-  for (unsigned int i = 0; i < study.runs.size(); ++i)
-    if (!study.runs[i])
-      do
-        directories[i] = "run-" + dealii::Utilities::int_to_string(++number, 3);
-      while (taken.count(directories[i]) > 0);
-  return directories;
-}
-
-void write_runs(const fs::path& directory, const Study& study) {
-  std::string lines;
-  for (unsigned int i = 0; i < study.runs.size(); ++i)
-    if (study.runs[i])
-      lines += study_line(study.plans[i], *study.runs[i]) + '\n';
-  write_file(directory / "study.jsonl", lines);
-  write_file(directory / "study.csv", study_csv(study));
-}
-
-/// Whether groups of processes make several runs at a time.
-bool is_farmed(const Parameters& parameters, MPI_Comm communicator) {
-  return parameters.study.processes_per_scene > 0 && !is_alone(communicator);
-}
-
-/// Makes the runs of these numbers, on all processes together or in groups that make several at a
-/// time, and hands each to @p add. False when the user has interrupted it.
-bool make_runs(const Study& study, const std::vector<unsigned int>& numbers,
-               const std::vector<std::string>& directories, const Parameters& parameters,
-               const fs::path& directory, MPI_Comm communicator,
-               const std::function<void(unsigned int, StudyRun)>& add) {
-  // Each process, or each group, makes its runs one after the other.
-  std::optional<StudyBench> bench;
-  const auto make = [&](unsigned int task, MPI_Comm group) {
-    if (!bench)
-      bench.emplace(study.plans, parameters, directory, group);
-    return bench->make(study.plans[numbers[task]], directories[numbers[task]]);
+/// Takes over the runs that an earlier call has solved. Returns their number.
+unsigned int take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
+  const bool goes_on = process_number(communicator) == 0 && is_of_same_run(parameters);
+  const auto read = [&](const char* name) {
+    return share_text(communicator, goes_on ? text_of(parameters.output.directory, name) : "");
   };
-  bool is_complete = true;
-  if (is_farmed(parameters, communicator))
-    farm_out(
-        communicator, parameters.study.processes_per_scene, numbers.size(),
-        [&](unsigned int task, const std::string& line) {
-          auto runs = read_study_runs(line); // none of a run that was interrupted
-          is_complete = is_complete && !runs.empty() && !is_interrupted(MPI_COMM_SELF);
-          if (!runs.empty())
-            add(numbers[task], std::move(runs.front().second));
-          return is_complete;
-        },
-        [&](unsigned int task, MPI_Comm group) {
-          try {
-            return study_line(study.plans[numbers[task]], make(task, group));
-          } catch (const Interrupted&) {
-            return std::string();
-          }
-        });
-  else
-    try {
-      for (unsigned int task = 0; task < numbers.size(); ++task)
-        add(numbers[task], make(task, communicator));
-    } catch (const Interrupted&) {
-      is_complete = false;
+  read_csv(read("study.csv"), study);
+  read_profiles(read("study-profiles.csv"), study);
+  return std::count_if(study.runs.begin(), study.runs.end(),
+                       [](const auto& run) { return run.has_value(); });
+}
+
+/// Writes the runs that have ended in their order.
+void write_tables(const Study& study, const fs::path& directory) {
+  std::string rows = csv_header(study), profiles = profiles_header(study);
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    if (study.runs[run]) {
+      rows += csv_row(study, run);
+      profiles += profile_rows(study, run);
     }
-  return is_complete;
+  write_file(directory / "study-profiles.csv", profiles);
+  write_file(directory / "study.csv", rows);
+}
+
+/// Makes the runs that are missing. False when the user has interrupted it.
+bool make_runs(Study& study, const Parameters& parameters, const fs::path& directory,
+               std::ostream& out, MPI_Comm communicator) {
+  const bool is_first = process_number(communicator) == 0;
+  try {
+    StudySolver solver(study.plans, parameters, directory, communicator);
+    for (unsigned int run = 0; run < study.runs.size(); ++run) {
+      if (study.runs[run])
+        continue;
+      study.runs[run] = solver.solve(run);
+      if (is_first) {
+        append_to_file(directory / "study-profiles.csv", profile_rows(study, run));
+        append_to_file(directory / "study.csv", csv_row(study, run));
+      }
+      out << line_of_run(study, run) << std::flush;
+    }
+  } catch (const Interrupted&) {
+    return false;
+  }
+  return true;
 }
 
 } // namespace
 
 Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
-  const unsigned int n_processes = count_processes(communicator),
-                     group_size = parameters.study.processes_per_scene;
-  if (is_farmed(parameters, communicator) && group_size >= n_processes)
-    throw BadValue("Study", "Processes per scene",
-                   "one process hands out the scenes, so that there must be more than these");
   Study study;
-  study.plans =
-      plan_runs(parameters, is_farmed(parameters, communicator) ? group_size : n_processes);
+  study.plans = plan_runs(parameters, count_processes(communicator));
   study.runs.resize(study.plans.size());
   study.has_true_errors = parameters.study.true_errors;
   unsigned int place = 0;
@@ -168,38 +87,22 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   return study;
 }
 
-void run_study(Study& study, const Parameters& parameters, const fs::path& directory,
-               std::ostream& out, MPI_Comm communicator) {
+void run_study(Study& study, const Parameters& parameters, std::ostream& out,
+               MPI_Comm communicator) {
+  const fs::path directory = parameters.output.directory;
   const bool is_first = process_number(communicator) == 0;
-  adopt(share_text(communicator, is_first ? earlier_runs(parameters, directory, study.plans, out)
-                                          : std::string()),
-        study);
-  if (is_first && !is_input(parameters, directory / "parameters.prm")) {
-    std::ostringstream text;
-    write_parameters(text, parameters);
-    write_file(directory / "parameters.prm", text.str());
+  const unsigned int n_earlier = take_over(study, parameters, communicator);
+  if (n_earlier > 0)
+    out << n_earlier << " of " << study.runs.size() << " runs are in study.csv\n";
+  if (is_first) {
+    write_tables(study, directory); // first: with the parameters of another study it is not read
+    WrittenFiles written;
+    write_parameters(directory, parameters, written);
   }
-  const StudyTable table(study);
-  const auto directories = parameters.study.files_of_each_run.empty()
-                               ? std::vector<std::string>(study.runs.size())
-                               : choose_directories(study);
-  std::vector<unsigned int> numbers;
-  out << table.header();
-  for (unsigned int i = 0; i < study.runs.size(); ++i)
-    if (study.runs[i])
-      out << table.row(i, "done before");
-    else
-      numbers.push_back(i);
-  out << std::flush;
-  const auto add = [&](unsigned int number, StudyRun run) {
-    study.runs[number] = std::move(run);
-    out << table.row(number) << std::flush;
-    if (is_first)
-      write_runs(directory, study);
-  };
-  if (is_first && numbers.size() < study.runs.size())
-    write_runs(directory, study);
-  if (!make_runs(study, numbers, directories, parameters, directory, communicator, add)) {
+  const bool is_complete = make_runs(study, parameters, directory, out, communicator);
+  if (is_first && n_earlier > 0)
+    write_tables(study, directory); // in the order of the study
+  if (!is_complete) {
     const auto n_made = std::count_if(study.runs.begin(), study.runs.end(),
                                       [](const auto& run) { return run.has_value(); });
     if (n_made == 0)

@@ -8,9 +8,9 @@
 namespace rollwave {
 
 /**
- * A file that is either complete or absent: it is written beside its place, under a name that no
- * other process uses, and moved there by commit() after finish(). Without commit() nothing remains,
- * unless the process is killed.
+ * A file that is either complete or absent: it is written next to its place, under a name that no
+ * other run uses, and moved there by commit(). Without commit() nothing remains, unless the process
+ * is killed: then a file whose name ends in .part does.
  */
 class AtomicFile {
 public:
@@ -22,30 +22,24 @@ public:
 
   std::ostream& stream() { return out; }
 
-  /// Waits until all is on the disk and returns the size in bytes.
-  /// @throws NotWritten when anything could not be written.
-  unsigned long finish();
+  /// The name under which it is written, for programs that write it themselves.
+  const std::filesystem::path& part() const { return temporary; }
 
-  /// Moves the file, when it is finished, to its place. @throws NotWritten.
-  void commit();
+  /// Moves the file to its place and returns its size in bytes.
+  /// @throws NotWritten when anything could not be written.
+  unsigned long commit();
 
 private:
   std::filesystem::path path;
-  std::filesystem::path part;
+  std::filesystem::path temporary;
   std::ofstream out;
 };
 
-/// Whether a file has the name of a part that an AtomicFile leaves when its process is killed.
-bool is_abandoned_part(const std::filesystem::path& path);
-
-/// The file that lists what this program has written into a directory, one name in a line.
-inline constexpr const char* record_name = ".rollwave";
-
-/// Notes a file in the record of its directory, if that has one. @throws NotWritten.
-void record_file(const std::filesystem::path& path);
-
-/// Records and writes a file, and returns its size in bytes. @throws NotWritten.
+/// Writes a file and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Adds @p text at the end of a file; a part of it does not stay. @throws NotWritten.
+void append_to_file(const std::filesystem::path& path, const std::string& text);
 
 } // namespace rollwave
 

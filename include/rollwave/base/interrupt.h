@@ -5,15 +5,15 @@
 
 namespace rollwave {
 
-/// Notes from here on SIGINT (Ctrl-C), SIGTERM, and what batch systems send some time before the
-/// end: SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP. The second SIGINT or SIGTERM ends the program at once. A
-/// signal that is ignored at the first call, as by nohup, stays ignored.
-/// @param tells whether this process says so on the standard error
-void heed_interrupts(bool tells = true);
+/// From here on the first SIGINT (Ctrl-C) or SIGTERM sets a flag, and the second one ends the
+/// program at once. The signals that batch systems send before the end set the flag too: SIGHUP,
+/// SIGUSR1, SIGUSR2, SIGXCPU. A signal that is ignored at the first call, as by nohup, stays
+/// ignored. Writing to a full disk or a closed pipe is an error of the stream, not a signal.
+/// @param reports true to print a message on the standard error when the flag is set
+void install_signal_handlers(bool reports = true);
 
-/// Whether any of the processes, all of which must ask, has been told to end. Who repeats steps
-/// looks between them, and ends with the best there is: no more steps of Uzawa, no finer mesh, no
-/// further run of a study.
+/// True if the flag is set on any process; all of them must call it. A refinement asks once for
+/// each mesh, a study once for each run, and both end with what they have.
 bool is_interrupted(MPI_Comm communicator);
 
 } // namespace rollwave

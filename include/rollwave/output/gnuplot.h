@@ -1,19 +1,26 @@
 #ifndef ROLLWAVE_OUTPUT_GNUPLOT_H
 #define ROLLWAVE_OUTPUT_GNUPLOT_H
 
+#include "rollwave/output/output_directory.h"
+
+#include <filesystem>
 #include <string>
 
 namespace rollwave {
 
-/// A picture as SVG, or the reason why there is none.
+/// A gnuplot script, which sets neither terminal nor output, and the size of its picture in points.
 struct Picture {
-  std::string svg;
-  std::string failure; ///< empty where there is a picture
+  std::string script;
+  unsigned int width, height;
 };
 
-/// What gnuplot draws by @p script, which must not set a terminal; @p width and @p height are in
-/// points.
-Picture draw(const std::string& script, unsigned int width, unsigned int height);
+/// @p text as a string of gnuplot, in which it expands nothing.
+std::string in_single_quotes(const std::string& text);
+
+/// Writes NAME.gp, which draws NAME.svg when gnuplot runs it in @p directory, and runs it there. If
+/// that fails, as without gnuplot, there is no picture but a remark. @throws NotWritten.
+void draw(const Picture& picture, const std::filesystem::path& directory, const std::string& name,
+          WrittenFiles& written);
 
 } // namespace rollwave
 

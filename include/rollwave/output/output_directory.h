@@ -6,60 +6,42 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// What has been written, and what could not be.
+/// The files of a run, and remarks on those that could not be written.
 struct WrittenFiles {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks;
+  unsigned long n_bytes = 0;
+
+  /// Writes a file. @throws NotWritten.
+  void write(const std::filesystem::path& path, const std::string& content);
 };
 
-/// The complete parameter file of a run, with the versions of the program in its first line.
-void write_parameters(std::ostream& out, const Parameters& parameters);
+/// Writes parameters.prm, the complete parameter file of a run with the version of the program in
+/// its first line. The file that was read, by whatever name, is never written over: then there is a
+/// remark. @throws NotWritten.
+void write_parameters(const std::filesystem::path& directory, const Parameters& parameters,
+                      WrittenFiles& written);
 
-/// Whether @p path is the parameter file that was read, by whatever name: it is never written over.
-bool is_input(const Parameters& parameters, const std::filesystem::path& path);
-
-/// Renames study.csv and study.jsonl of a directory to the first names study-before that are free.
-/// @return the name without its ending; empty where there is none of them
-/// @throws NotWritten when a file cannot be moved
-std::string set_study_aside(const std::filesystem::path& directory);
+/// True if parameters.prm in the directory of @p parameters is what write_parameters() writes: a
+/// study then goes on.
+bool is_of_same_run(const Parameters& parameters);
 
 /**
- * The directory that a run writes into, from its beginning to its end. The record in it, which
- * names the files that this program has written there, is locked by the kernel meanwhile, so that
- * no other run writes there.
+ * Makes the directory of a run, on rank 0 for all. Where an earlier run has left its parameters.prm
+ * it removes the files of that run that this one will not write: those by which runs call their
+ * files, and no others.
+ *
+ * @return the names of the removed files
+ * @throws BadValue when the directory cannot be made or written into, NotWritten when there is no
+ *         space for it
  */
-class OutputDirectory {
-public:
-  /// Makes the directory, on one process for all, and removes what killed runs have left half
-  /// written. @throws BadValue when it cannot be made or written into, or another run does,
-  ///         NotWritten when there is no space for it.
-  OutputDirectory(const Parameters& parameters, MPI_Comm communicator);
-  ~OutputDirectory();
-  OutputDirectory(const OutputDirectory&) = delete;
-  OutputDirectory& operator=(const OutputDirectory&) = delete;
-
-  const std::filesystem::path& path() const { return directory; }
-
-  /// The files that earlier runs of this program have written here, and this one has not.
-  std::vector<std::string> files_of_earlier_runs() const;
-
-  /// At the end of a run: removes these, keeping the table of a study, and says so in @p written.
-  void remove_files_of_earlier_runs(WrittenFiles& written);
-
-private:
-  std::vector<std::string> recorded() const;
-
-  std::filesystem::path directory;
-  const Parameters& parameters;
-  int record = -1;           ///< descriptor, on the first process
-  std::size_t n_earlier = 0; ///< entries of the record that are of earlier runs
-};
+std::vector<std::string> prepare_directory(const Parameters& parameters, bool is_study,
+                                           MPI_Comm communicator);
 
 } // namespace rollwave
 

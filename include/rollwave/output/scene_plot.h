@@ -7,7 +7,7 @@
 
 namespace rollwave {
 
-/// The scene; the surroundings of the contact at true scale; over the angle gap and pressure there.
+/// The scene; the surroundings of the contact at true scale; gap and pressure over the angle there.
 /// @param result in the user's units
 Picture plot_scene(const Scene& scene, const Result& result);
 

@@ -17,7 +17,6 @@ struct CommandLine {
   Action action = Action::run;
   std::filesystem::path file;    ///< the parameter file to run
   bool verify = false;           ///< compare with the exact solution
-  bool is_single = false;        ///< solve alone whatever the launcher says
   std::vector<Setting> settings; ///< of --set and --output, in their order
 };
 

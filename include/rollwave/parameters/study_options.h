@@ -29,7 +29,6 @@ struct StudyOptions {
   std::vector<std::optional<unsigned int>> published_steps;
   bool true_errors = false;
   std::set<OutputFile> files_of_each_run;
-  unsigned int processes_per_scene = 0; ///< 0: all of them
 };
 
 /// The keys of the section.

@@ -4,7 +4,6 @@
 #include "rollwave/study/study_record.h"
 
 #include <iosfwd>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,22 +11,17 @@ namespace rollwave {
 
 /// Runs that differ in how fine their meshes are only, in the order of the study.
 struct Family {
-  std::string name; ///< what they have in common
+  std::string name; ///< the settings that they have in common
   std::vector<unsigned int> runs;
-  bool is_adaptive;  ///< whether any refines adaptively: then its orders are in N^(-1/2), not in h
-  bool is_cut_alike; ///< whether all cells are cut alike from mesh to mesh, adaptively or not
+  bool is_adaptive; ///< true if any of them refines adaptively
 };
 
 std::vector<Family> find_families(const Study& study);
 
-/// The order of the error in the energy norm, or else of its certified bound, from the run before
-/// in its family: in h where all cells are cut alike, in N^(-1/2) where the meshes are adaptive,
-/// otherwise nullopt.
-std::optional<double> observed_order(const Study& study, const std::vector<Family>& families,
-                                     unsigned int run);
-
-/// For each family with three meshes or more the orders of its errors over the last three
-/// refinements, fitted by least squares, with the standard errors of the fits.
+/// For each family with two meshes or more the errors over the number N of unknowns with their
+/// orders in N^(-1/2), which is h up to a constant where all cells are cut alike. With three meshes
+/// or more also the orders over the last three refinements, fitted by least squares, with the
+/// standard errors of the fits.
 void report_orders(std::ostream& out, const Study& study);
 
 } // namespace rollwave

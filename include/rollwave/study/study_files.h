@@ -4,14 +4,12 @@
 #include "rollwave/output/output_directory.h"
 #include "rollwave/study/study_record.h"
 
-#include <filesystem>
-
 namespace rollwave {
 
 /**
- * Beside study.csv and study.jsonl, which run_study() keeps, writes study.txt (the table),
- * study.tex (the same as a LaTeX document), study.pvd (the fields of the runs, where they are
- * written) and plots:
+ * Writes, next to the tables of run_study(), study.txt and study.tex (a table for the screen and
+ * for LaTeX), study.pvd (the fields of the runs, where they are written) and plots, each with its
+ * gnuplot script:
  *
  * - study-curves.svg: loads, stiffness, half-width and peak pressure over the key that varies
  *   fastest, where that is a number of the scene, study-profiles.svg: pressures along the surface,
@@ -22,8 +20,7 @@ namespace rollwave {
  *
  * @throws NotWritten
  */
-WrittenFiles write_study(const std::filesystem::path& directory, const Parameters& parameters,
-                         const Study& study);
+WrittenFiles write_study(const Parameters& parameters, const Study& study);
 
 } // namespace rollwave
 

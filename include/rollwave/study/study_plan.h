@@ -5,23 +5,18 @@
 #include "rollwave/scene/units.h"
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// What one run of a study is to do.
+/// A run of a study before it is made.
 struct RunPlan {
   std::string scene;           ///< its name in Study/Scenes, empty without
   std::vector<Setting> varied; ///< one setting for each key of Study/Vary
   std::optional<unsigned int> published_steps;
   Parameters parameters; ///< without a study
-
-  /// What the run depends on: its settings other than the defaults by path, numbers in their
-  /// shortest form. Runs that have it in common are the same.
-  std::map<std::string, std::string> identity;
 };
 
 /// Every combination of the values in `Study/Vary`, the last key varying fastest, for each of

@@ -5,6 +5,7 @@
 #include "rollwave/scene/units.h"
 #include "rollwave/study/study_plan.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,24 +13,24 @@
 
 namespace rollwave {
 
-/// A number that a run has found, by its name in study.csv; not a number where there is none.
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A number that a run has found, by its name in study.csv; not_known where there is none.
 struct Figure {
-  Figure() = default;
   template <typename Number>
   Figure(std::string name, Number value, Quantity quantity = Quantity::number)
       : name(std::move(name)), value(value), quantity(quantity) {}
 
   std::string name;
-  double value = 0;
-  Quantity quantity = Quantity::number;
+  double value;
+  Quantity quantity;
 };
 
-/// What one run of a study has found.
+/// The outcome of one run of a study.
 struct StudyRun {
   std::vector<Figure> figures; ///< none where it was not solved
   std::string reference;       ///< what its errors are measured against; empty without errors
-  std::string failure;     ///< why it was not solved, or not to what was wanted; empty where it was
-  bool is_refused = false; ///< whether it is the parameters that fail
+  std::string failure; ///< why it was not solved, or not to what was wanted; empty where it was
   std::vector<std::string> remarks;
   std::string shared; ///< what it has from the run before, which its seconds do not count
   std::string files;  ///< the directory of its own files; empty without
@@ -39,11 +40,11 @@ struct StudyRun {
   std::optional<double> figure(const std::string& name) const;
 };
 
-/// A study: its runs in their order, nullopt for those that have not been made.
+/// A study: its runs in their order, nullopt for those that have not ended.
 struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
-  bool has_true_errors = false; ///< whether they were asked for
+  bool has_true_errors = false; ///< true if they were asked for
 
   /// The places in RunPlan::varied at which the keys of each part of Study/Vary begin; those of a
   /// part move together.
@@ -56,7 +57,10 @@ struct Study {
     return runs[run] ? runs[run]->figure(name) : std::nullopt;
   }
 
-  /// Whether any run has a figure that is greater than 0.
+  /// For the names of units: figures are in the user's units already.
+  Units units() const { return {1, plans.front().parameters.material}; }
+
+  /// True if any run has a figure that is greater than 0.
   bool has(const std::string& name) const;
 };
 
@@ -65,18 +69,6 @@ std::vector<Figure> figures_of(const Result& result);
 
 /// The pressure from the node before contact to that behind it, at about a hundred nodes at most.
 std::vector<std::pair<double, double>> pressure_of(const Result& result);
-
-/// A line of study.jsonl: a run with what it was asked to do.
-std::string study_line(const RunPlan& plan, const StudyRun& run);
-
-/// The runs of the lines of study.jsonl, with their RunPlan::identity; lines of another kind are
-/// left out.
-std::vector<std::pair<std::map<std::string, std::string>, StudyRun>>
-read_study_runs(const std::string& text);
-
-/// study.csv: `scene` where there are several, the varied keys, `solved`, `published_steps`,
-/// `reference`, `failure`, `remarks`, `files`, the figures in full precision, `shared`.
-std::string study_csv(const Study& study);
 
 } // namespace rollwave
 

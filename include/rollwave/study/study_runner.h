@@ -5,34 +5,30 @@
 
 #include <mpi.h>
 
-#include <filesystem>
 #include <iosfwd>
 
 namespace rollwave {
 
-/// The runs that a study is to make, none of which has been made.
-/// @throws BadInput as plan_runs()
+/// A study none of whose runs has been made. @throws BadInput as plan_runs()
 Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
- * Makes the runs of a planned @p study and prints the table of the study on @p out, each row when
- * its run has ended. A run that cannot be solved is a row like the others.
+ * Makes the runs of a planned @p study and prints a line on @p out when a run has ended. A run that
+ * cannot be solved is a run like the others.
  *
- * After each run study.csv and study.jsonl are written to @p directory. What study.jsonl already
- * has of the same runs is not made again, unless a run failed for another reason than its
- * parameters, or lacks files that are wanted of it. A table with rows of other runs is kept as
- * study-before.csv, study-before-2.csv and so on.
+ * Each run adds its row to study.csv, and its pressures to study-profiles.csv.
+ * Where parameters.prm in the directory is that of the same study, runs that study.csv has as
+ * solved are not made again; otherwise these files begin anew.
  *
- * On several processes all of them make each run together, or groups of `Study/Processes per scene`
- * make several at a time; the first of them writes.
+ * On several processes all of them make each run together; rank 0 writes.
  *
- * When the user interrupts it, the run at hand ends without a row, unless nothing is missing of it,
+ * When the user interrupts it, the current run ends without a row, unless nothing is missing of it,
  * and no further run is begun.
  *
  * @throws NotWritten; Interrupted before there is a row.
  */
-void run_study(Study& study, const Parameters& parameters, const std::filesystem::path& directory,
-               std::ostream& out, MPI_Comm communicator = MPI_COMM_SELF);
+void run_study(Study& study, const Parameters& parameters, std::ostream& out,
+               MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave
 

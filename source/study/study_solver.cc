@@ -1,9 +1,8 @@
-#include "rollwave/study/study_bench.h"
+#include "rollwave/study/study_solver.h"
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/output/output_directory.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
@@ -22,23 +21,24 @@ using namespace dealii;
 
 namespace {
 
-/// What a run has in common with others on its mesh.
+/// The settings of a run on which its mesh and matrices depend.
 std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
-  std::map<std::string, std::string> values;
-  for (const Key& key : all_keys())
-    if (const auto value = plan.identity.find(key.path());
-        value != plan.identity.end() && (key.affects & Affects::mesh))
-      values.insert(*value);
-  return values;
+  std::map<std::string, std::string> key;
+  for (const Setting& setting : plan.parameters.settings)
+    if (key_of(setting).affects & Affects::mesh)
+      key[setting.path()] = setting.value;
+  return key;
 }
 
 } // namespace
 
-StudyBench::StudyBench(const std::vector<RunPlan>& plans, const Parameters& study,
-                       const std::filesystem::path& directory, MPI_Comm communicator)
+StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
+                         const std::filesystem::path& directory, MPI_Comm communicator)
     : plans(plans), study(study), directory(directory), communicator(communicator) {
-  if (study.study.true_errors)
+  if (study.study.true_errors) {
+    warm_up();
     return;
+  }
   std::map<MeshKey, unsigned int> n_runs;
   for (const RunPlan& plan : plans)
     if (most_cycles(plan.parameters.mesh) == 0) {
@@ -53,12 +53,12 @@ StudyBench::StudyBench(const std::vector<RunPlan>& plans, const Parameters& stud
       widest_zone.erase(key);
 }
 
-StudyRun StudyBench::make(const RunPlan& plan, const std::string& files) {
+StudyRun StudySolver::solve(unsigned int number) {
+  const RunPlan& plan = plans[number];
   StudyRun run;
-  run.files = files;
+  if (!study.study.files_of_each_run.empty())
+    run.files = "run-" + Utilities::int_to_string(number + 1, 3);
   try {
-    if (study.study.true_errors && !is_warm)
-      warm_up();
     solve(plan, run);
   } catch (const Interrupted&) {
     throw;
@@ -66,10 +66,8 @@ StudyRun StudyBench::make(const RunPlan& plan, const std::string& files) {
     run.failure = failure.what();
   } catch (const BadValue& value) {
     run.failure = refusal(plan.parameters.settings, value);
-    run.is_refused = true;
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
-    run.is_refused = true;
   } catch (const std::bad_alloc&) {
     if (!is_alone(communicator))
       throw; // the others do not know
@@ -81,8 +79,7 @@ StudyRun StudyBench::make(const RunPlan& plan, const std::string& files) {
 }
 
 /// The first run of a process also pays for pages of memory and libraries.
-void StudyBench::warm_up() {
-  is_warm = true;
+void StudySolver::warm_up() {
   const auto smallest =
       std::min_element(plans.begin(), plans.end(), [](const auto& left, const auto& right) {
         return count_unknowns(left.parameters.mesh) < count_unknowns(right.parameters.mesh);
@@ -92,16 +89,14 @@ void StudyBench::warm_up() {
   options.mesh.wanted_relative_error = 0;
   try {
     simulate(make_scene(options), options, communicator);
-  } catch (const Interrupted&) {
-    throw;
   } catch (const BadInput&) {
-    // Told when its turn comes.
+    // The run itself will report it.
   } catch (const NotSolved&) {
-    // Likewise.
+    // The same.
   }
 }
 
-void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
+Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   Scene scene = make_scene(plan.parameters);
   const MeshKey key = mesh_key(plan);
   Solution previous;
@@ -109,20 +104,24 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
     previous = std::move(*solution);
     run.shared = "mesh";
   }
-  solution.reset();  // assignment would delete the mesh under what lives on it
+  solution.reset();  // before the next one needs its memory
   last_mesh.reset(); // a run that fails leaves nothing
-  if (const auto zone = widest_zone.find(key); zone == widest_zone.end())
-    solution.emplace(simulate(scene, plan.parameters, communicator));
-  else {
-    scene.shared_zone = zone->second;
-    solution.emplace(simulate(scene, plan.parameters, communicator, std::move(previous)));
-    last_mesh = key;
-  }
+  const auto zone = widest_zone.find(key);
+  if (zone == widest_zone.end())
+    return simulate(scene, plan.parameters, communicator);
+  scene.shared_zone = zone->second;
+  Solution shared = simulate(scene, plan.parameters, communicator, std::move(previous));
+  last_mesh = key;
+  if (!run.shared.empty() && shared.result.work.stiffness_assemblies == 0)
+    run.shared = "mesh and matrices";
+  return shared;
+}
+
+void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
+  solution.emplace(solve_on_shared_mesh(plan, run));
   Result& result = solution->result;
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));
-  if (!run.shared.empty() && result.work.stiffness_assemblies == 0)
-    run.shared = "mesh and matrices";
   if (study.study.true_errors)
     if (const auto& exact = exact_solution(solution->scene)) {
       result.errors = measure_true_errors(*solution->space, solution->displacement, result,
@@ -137,14 +136,14 @@ void StudyBench::solve(const RunPlan& plan, StudyRun& run) {
     parameters.output.files = study.study.files_of_each_run;
     write_results(directory / run.files, parameters, *solution);
   }
-  const Result own = in_users_units(result, scene.units);
-  run.figures = figures_of(own);
-  run.pressure = pressure_of(own);
+  const Result in_units = in_users_units(result, solution->scene.units);
+  run.figures = figures_of(in_units);
+  run.pressure = pressure_of(in_units);
   run.failure = shortfall_text(result);
   run.remarks = result.remarks;
 }
 
-const std::optional<ExactSolution>& StudyBench::exact_solution(const Scene& scene) {
+const std::optional<ExactSolution>& StudySolver::exact_solution(const Scene& scene) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::vector<double> key = {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
                                    scene.road_distance, scene.road_curvature,

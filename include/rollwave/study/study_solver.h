@@ -1,5 +1,5 @@
-#ifndef ROLLWAVE_STUDY_STUDY_BENCH_H
-#define ROLLWAVE_STUDY_STUDY_BENCH_H
+#ifndef ROLLWAVE_STUDY_STUDY_SOLVER_H
+#define ROLLWAVE_STUDY_STUDY_SOLVER_H
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/run/simulation.h"
@@ -16,32 +16,32 @@
 
 namespace rollwave {
 
-/// Makes the runs of a study one after the other on the same processes. Runs on one mesh share it,
+/// Solves the runs of a study one after the other on the same processes. Runs on one mesh share it,
 /// and its factors at one speed, unless true errors are asked for: then each is timed in full,
 /// after a run that is not counted.
-class StudyBench {
+class StudySolver {
 public:
   /// @param study its parameters, whose files of each run go to directories in @p directory
-  StudyBench(const std::vector<RunPlan>& plans, const Parameters& study,
-             const std::filesystem::path& directory, MPI_Comm communicator);
+  StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
+              const std::filesystem::path& directory, MPI_Comm communicator);
 
-  /// A run, with the reason where it cannot be solved. @p files is the name of the directory of its
-  /// own files. @throws Interrupted also when there is a result that lacks something; NotWritten
-  StudyRun make(const RunPlan& plan, const std::string& files);
+  /// Solves the run of this number, from 0 on; if that fails the reason is in the outcome.
+  /// @throws Interrupted also when there is a result that lacks something; NotWritten
+  StudyRun solve(unsigned int number);
 
 private:
-  /// What runs on one mesh have in common.
+  /// Settings that runs on one mesh have in common.
   using MeshKey = std::map<std::string, std::string>;
 
   void warm_up();
   void solve(const RunPlan& plan, StudyRun& run);
+  Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
   const std::optional<ExactSolution>& exact_solution(const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
   const std::filesystem::path directory;
   const MPI_Comm communicator;
-  bool is_warm = false;
   std::map<MeshKey, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
   std::optional<MeshKey> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;

@@ -1,0 +1,32 @@
+#ifndef ROLLWAVE_STUDY_STUDY_CSV_H
+#define ROLLWAVE_STUDY_STUDY_CSV_H
+
+#include "rollwave/study/study_record.h"
+
+#include <string>
+
+namespace rollwave {
+
+/// The first line of study.csv: `scene` where there are several, the varied keys, `solved`,
+/// `published_steps`, `reference`, `failure`, `remarks`, `files`, the figures, `shared`.
+std::string csv_header(const Study& study);
+
+/// The line of a run that has ended, with all digits of its figures.
+std::string csv_row(const Study& study, unsigned int run);
+
+/// Takes over the solved runs from the text of study.csv of the same study; a line that is not
+/// complete is left out.
+void read_csv(const std::string& text, Study& study);
+
+/// The first line of study-profiles.csv.
+std::string profiles_header(const Study& study);
+
+/// Its lines for a run: number, angle and pressure at each point of the profile.
+std::string profile_rows(const Study& study, unsigned int run);
+
+/// Takes over the profiles of runs that are solved from the text of study-profiles.csv.
+void read_profiles(const std::string& text, Study& study);
+
+} // namespace rollwave
+
+#endif
