@@ -1,5 +1,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
+#include "rollwave/base/memory.h"
 #include "rollwave/base/version.h"
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
@@ -63,6 +64,7 @@ void act(const std::vector<std::string>& arguments, MPI_Comm communicator, std::
 
 int main(int argc, char* argv[]) {
   open_standard_streams();
+  const bool has_memory = fit_blas_into_address_space(argv);
   install_signal_handlers();
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   bool is_first = true;
@@ -85,6 +87,8 @@ int main(int argc, char* argv[]) {
     return code;
   };
   try {
+    if (!has_memory)
+      throw NotEnoughMemory();
     std::ostream silence(nullptr);
     act({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
         is_first ? std::cout : silence);

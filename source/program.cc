@@ -7,6 +7,7 @@
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
@@ -61,9 +62,13 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator);
   report_result(out, in_users_units(solution.result, scene.units), scene.units);
-  if (verifies)
-    verify(solution, out);
-  const WrittenFiles written = write_results(parameters.output.directory, parameters, solution);
+  const auto& directory = parameters.output.directory;
+  const WrittenFiles written = write_results(directory, parameters, solution);
+  if (verifies) {
+    attempt([&] { verify(solution, out); }, "the result could not be verified",
+            "leave out --verify", communicator, solution.result);
+    write_summary(directory, parameters, solution);
+  }
   report_end(out, solution.result.work, written);
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));

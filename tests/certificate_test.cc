@@ -299,15 +299,6 @@ TEST(Certificate, SeesStripsNarrowerThanACell) {
   }
 }
 
-TEST(Certificate, HasNoBoundAtAPole) {
-  const Parameters parameters =
-      parameters_of({"Cylinder/Radial force=abs(r-0.7123)^(-0.95)", "Road/Distance=0.95"});
-  const Result result = simulate(make_scene(parameters), parameters).result;
-  EXPECT_TRUE(std::isinf(result.certified->energy_norm));
-  EXPECT_TRUE(std::isinf(result.certified->lower_bound));
-  EXPECT_NE(testing::PrintToString(result.remarks).find("there is no bound"), std::string::npos);
-}
-
 // The bound is as large as the norm of v: their difference is rounding.
 TEST(Certificate, HasNoRelativeBoundWithoutADigit) {
   const Parameters parameters =

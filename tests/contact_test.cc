@@ -48,6 +48,9 @@ public:
   }
 
   Vector<double> response(const Vector<double>&, double) override { return {}; }
+  ContactState derivative(const std::vector<bool>&, const Vector<double>&, double) override {
+    return {};
+  }
   FieldVector displacement_field(const ContactState&) override { return {}; }
   FieldVector apply(const FieldVector&) const override { return {}; }
 

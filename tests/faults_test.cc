@@ -367,6 +367,23 @@ TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
   expect_no_partial_files();
 }
 
+#ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
+TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
+  const std::string lots = "4000000"; // KiB
+  for (const std::string most :
+       {"450000", "500000", "550000", "600000", "700000", "800000", lots.c_str()}) {
+    const Outcome outcome = shell("unset OPENBLAS_NUM_THREADS OMP_NUM_THREADS; ulimit -v " + most +
+                                  "; timeout -s KILL 60 $rollwave " + scene);
+    // The loader has no room for the libraries.
+    const bool is_loaded = outcome.text.find("shared librar") == std::string::npos;
+    if (most == lots)
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    else if (is_loaded)
+      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << most << outcome.text;
+  }
+}
+#endif
+
 TEST_F(Faults, FullDiskLeavesWhatFitsComplete) {
   ASSERT_EQ(run({}).exit_code, 0);
   const auto undisturbed = files();

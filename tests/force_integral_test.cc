@@ -67,7 +67,7 @@ TEST(ForceIntegral, IsExactForPolynomials) {
   EXPECT_GT(force.integral.error(), 1e-2);
 }
 
-// Smooth, narrow, and with jumps along z, along r, and across both.
+// Smooth, singular, and with jumps along z, along r, and across both.
 TEST(ForceIntegral, MissesNoMoreThanItSays) {
   const auto along_z = [](double r, double z) { return (z < 2.03 ? 1 : -1) * (1 - r * r) / 2; };
   const auto along_r = [](double r, double) { return r < 0.713 ? (0.713 * 0.713 - r * r) / 2 : 0; };
@@ -76,13 +76,21 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
     return r < s ? (s * s - r * r) / 2 : 0;
   };
   const auto smooth = [](double r, double z) { return std::sin(9 * z) * (1 - r * r) / 2; };
+  // int (x + s) |x|^(-0.4) dx with x = r - s
+  const auto singular = [](double r, double) {
+    const double s = 0.713;
+    const auto primitive = [s](double x) {
+      return std::pow(std::abs(x), 1.6) / 1.6 +
+             s * std::copysign(std::pow(std::abs(x), 0.6), x) / 0.6;
+    };
+    return primitive(1 - s) - primitive(r - s);
+  };
   for (const unsigned int degree : {1, 2, 4})
-    for (const auto& [radial, angular] : {std::pair("4", "30"), {"7", "71"}, {"16", "200"}}) {
+    for (const auto& cells : {std::pair("4", "30"), {"7", "71"}, {"16", "200"}}) {
       SCOPED_TRACE(testing::Message()
-                   << "degree " << degree << " on " << radial << " x " << angular);
-      const auto expect_charged = [&, radial = radial, angular = angular](const char* f,
-                                                                          const auto& exact) {
-        OnMesh force(f, degree, radial, angular);
+                   << "degree " << degree << " on " << cells.first << " x " << cells.second);
+      const auto expect_charged = [&](const char* f, const auto& exact) {
+        OnMesh force(f, degree, cells.first, cells.second);
         const double missed = force.distance_to(exact);
         EXPECT_LE(missed, force.integral.error()) << f;
         EXPECT_GE(missed, force.integral.error() / 1000) << f;
@@ -91,6 +99,7 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
       expect_charged("if(r<0.713,1,0)", along_r);
       expect_charged("if(r<0.7+0.1*sin(3*z),1,0)", curve);
       expect_charged("sin(9*z)", smooth);
+      expect_charged("abs(r-0.713)^(-0.4)", singular);
     }
 }
 

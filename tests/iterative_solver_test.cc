@@ -2,6 +2,7 @@
 #include "rollwave/solver/iterative_solver.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/mesh/assembly.h"
 #include "rollwave/run/simulation.h"
@@ -11,12 +12,15 @@
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
+#include <sys/resource.h>
 
 using namespace rollwave;
 using dealii::Vector;
@@ -196,6 +200,50 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
   EXPECT_LE(both, work.linear_iterations + 2);
 }
 
+TEST_F(Kinds, GiveTheFieldOfTheStateThatIsAskedFor) {
+  const unsigned int m = space.contact_nodes().size();
+  for (ContactLinearSolver* const solver : {static_cast<ContactLinearSolver*>(&direct),
+                                            static_cast<ContactLinearSolver*>(&iterative)}) {
+    std::vector<bool> pinned(m);
+    for (unsigned int i = 0; i < m; ++i)
+      pinned[i] = i % 3 == 0;
+    ContactState one = random_state(pinned), other = random_state(pinned);
+    solver->solve(pinned, one, 1e-12);
+    FieldVector field = solver->displacement_field(one);
+    solver->solve(pinned, other, 1e-12);
+    field -= solver->displacement_field(one);
+    EXPECT_LT(field.linfty_norm(), 1e-11);
+  }
+}
+
+TEST_F(Kinds, AgreeOnTheChangeOfForces) {
+  const unsigned int m = space.contact_nodes().size();
+  std::vector<bool> pinned(m);
+  for (unsigned int i = 0; i < m; ++i)
+    pinned[i] = i % 3 != 0;
+  const ContactState change = random_state(pinned);
+  // The problem is linear: that of two states is the difference of their forces.
+  ContactState one = random_state(pinned), other = one;
+  other.displacement += change.displacement;
+  direct.solve(pinned, one, 0);
+  direct.solve(pinned, other, 0);
+  Vector<double> difference = other.force;
+  difference -= one.force;
+  const double size = difference.linfty_norm();
+
+  iterative.solve(pinned, one, 1e-12);
+  for (ContactLinearSolver* const solver : {static_cast<ContactLinearSolver*>(&direct),
+                                            static_cast<ContactLinearSolver*>(&iterative)}) {
+    Vector<double> forces = solver->derivative(pinned, change.displacement, 1e-13).force;
+    forces -= difference;
+    EXPECT_LE(forces.linfty_norm(), 1e-10 * size);
+  }
+  // The iterative one still goes on where it stopped.
+  const unsigned int iterations = iterative_work.linear_iterations;
+  iterative.solve(pinned, one, 1e-11);
+  EXPECT_EQ(iterative_work.linear_iterations, iterations);
+}
+
 TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
   Work work;
   const std::optional<FieldVector> no_load;
@@ -238,6 +286,56 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   EXPECT_THROW(choose_solver(SolverKind::direct, ring.space, scene, no_load, work),
                NotEnoughMemory);
 }
+
+// The dense problem of m contact nodes takes m^3 operations, conjugate gradients some of each
+// unknown.
+TEST(SolverChoice, TurnsToTheIterativeKindWhereTheDenseProblemTakesLonger) {
+  for (const auto& [radial_cells, is_direct] : {std::pair("1", false), std::pair("16", true)}) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Degree=1", std::string("Mesh/Radial cells=") + radial_cells,
+                       "Mesh/Angular cells=3000"});
+    const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
+    const Discretisation ring(scene, parameters);
+    Work work;
+    const std::optional<FieldVector> no_load;
+    const SolverChoice choice =
+        choose_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+    EXPECT_EQ(choice.kind, is_direct ? SolverKind::direct : SolverKind::iterative);
+    EXPECT_EQ(choice.remark.empty(), is_direct);
+    EXPECT_EQ(work.factorisations, is_direct ? 1u : 0u);
+  }
+}
+
+#ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
+// Wherever memory ends: in CHOLMOD, in deal.II's vectors or in the standard library's.
+TEST(SolverChoice, TurnsToTheIterativeKindWhereverMemoryEnds) {
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  const auto choose = [](unsigned int radial_cells, rlim_t most_bytes) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=" + std::to_string(radial_cells),
+                       "Mesh/Angular cells=2500"});
+    const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
+    const Discretisation ring(scene, parameters);
+    const std::optional<FieldVector> no_load;
+    Work work;
+    const rlimit limit = {most_bytes, RLIM_INFINITY};
+    setrlimit(RLIMIT_AS, &limit);
+    return choose_solver(SolverKind::automatic, ring.space, scene, no_load, work).kind;
+  };
+  for (const int mebibytes : {100, 150, 200, 250})
+    EXPECT_EXIT(
+        {
+          // MPI and the buffers of BLAS have their memory before the limit counts.
+          const MpiSession mpi;
+          choose(1, RLIM_INFINITY);
+          dealii::Utilities::System::MemoryStats memory;
+          dealii::Utilities::System::get_memory_stats(memory);
+          const SolverKind kind = choose(10, 1024 * memory.VmSize + (mebibytes << 20));
+          std::exit(kind == SolverKind::iterative ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "");
+}
+#endif
 
 /// The iterations to 1e-10 from zero for a random right-hand side, which has all angular modes, on
 /// the mesh of @p settings, refined where it says, with the nodes pinned that are in contact.

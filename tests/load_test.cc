@@ -8,6 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace rollwave;
 
@@ -78,6 +82,85 @@ TEST(Load, ThatNoDistanceGivesIsRefusedWithTheLargest) {
     EXPECT_THROW(parameters_of({"Road/Load=1", distance}), BadInput);
   EXPECT_NO_THROW(parameters_of({"Road/Load=1", "Road/Distance=none"}));
   EXPECT_THROW(parameters_of({"Road/Distance=none"}), BadInput);
+}
+
+TEST(Load, ThatTheSurfaceInsideOfTheHubCannotCarryIsRefused) {
+  // u_f(b) = -0.509: the surface lies inside of the hub's radius, where no road touches it.
+  for (const std::string kind : {"vertical", "total", "work-conjugate"})
+    for (const std::string curvature : {"-0.5", "0", "1"})
+      try {
+        solve_for({"Cylinder/Radial force=-3.2", "Road/Load=0.1", "Road/Load kind=" + kind,
+                   "Road/Curvature=" + curvature, "Mesh/Radial cells=4", "Mesh/Angular cells=48"});
+        FAIL() << kind << ' ' << curvature;
+      } catch (const BadValue& refused) {
+        EXPECT_EQ(refused.key, "Load");
+      }
+}
+
+TEST(Load, IsMetToANinthOrIsAShortfall) {
+  for (const std::string load : {"1e-3", "1e-6", "1e-9", "1e-12"}) {
+    const Solution solution = solve_for(
+        {"Road/Load=" + load, "Mesh/Radial cells=4", "Mesh/Angular cells=60", "Mesh/Degree=1"});
+    const double wanted = solution.scene.load->value;
+    EXPECT_TRUE(std::abs(solution.result.patch.vertical_load / wanted - 1) <= 1e-9 ||
+                !solution.result.shortfalls.empty())
+        << load;
+  }
+}
+
+TEST(Stiffness, IsThatOfTheExactAnswerAndFallsSteadily) {
+  // At a fixed set of nodes it would jump by 2.5 % within this range.
+  const std::vector<double> distances = {0.795, 0.8, 0.805};
+  std::vector<Loads> exact;
+  for (const double c : distances) {
+    constexpr double h = 1e-3;
+    const Scene scene = make_scene(parameters_of({}));
+    const ExactSolution near = *find_exact_solution(with_distance(scene, c - h)),
+                        far = *find_exact_solution(with_distance(scene, c + h));
+    exact.push_back({(near.force - far.force) / (2 * h),
+                     (near.vertical_load - far.vertical_load) / (2 * h),
+                     (near.work_conjugate_load - far.work_conjugate_load) / (2 * h)});
+  }
+  for (const auto& mesh : {std::pair("1", 1e-3), {"2", 1e-3}, {"4", 2e-3}}) {
+    const auto& [degree, tolerance] = mesh;
+    SCOPED_TRACE(degree);
+    double last = std::numeric_limits<double>::infinity();
+    for (double c = 0.795; c < 0.8051; c += 0.00125) {
+      const Solution solution = solve_for(
+          {assignment("Road/Distance", c), std::string("Mesh/Degree=") + degree,
+           "Mesh/Radial cells=10", "Mesh/Angular cells=200", "Certificate/Error bound=false"});
+      const Loads& stiffness = solution.result.patch.stiffness;
+      EXPECT_LT(stiffness.vertical, last);
+      last = stiffness.vertical;
+      for (unsigned int i = 0; i < distances.size(); ++i)
+        if (std::abs(c - distances[i]) < 1e-9)
+          for (const LoadKind kind :
+               {LoadKind::total, LoadKind::vertical, LoadKind::work_conjugate}) {
+            const double allowed = kind == LoadKind::work_conjugate ? 2e-3 : tolerance;
+            EXPECT_NEAR(stiffness.of(kind) / exact[i].of(kind), 1, allowed);
+          }
+    }
+  }
+}
+
+TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
+  // dphi/dc is singular at the tangent. The energies at c -+ 1e-3 give G = 0.4138, where the nodes
+  // say 0.4105; at kappa = 50 0.21218, where the series would say 0.21231.
+  const std::vector<std::string> drum = {"Cylinder/Angular velocity=1", "Road/Curvature=10",
+                                         "Mesh/Radial cells=8", "Mesh/Angular cells=200"};
+  std::vector<std::string> near = drum, loaded = drum;
+  near.push_back("Road/Distance=0.55");
+  const Solution solution = solve_for(near);
+  EXPECT_TRUE(std::isnan(solution.result.patch.work_conjugate_load));
+  EXPECT_TRUE(std::isnan(solution.result.patch.stiffness.vertical));
+  EXPECT_FALSE(solution.result.remarks.empty());
+  EXPECT_GT(solution.result.patch.force, 0.3);
+  EXPECT_FALSE(find_exact_solution(solution.scene));
+  EXPECT_FALSE(
+      find_exact_solution(make_scene(parameters_of({"Road/Curvature=50", "Road/Distance=0.7"}))));
+
+  loaded.insert(loaded.end(), {"Road/Load=0.41", "Road/Load kind=work-conjugate"});
+  EXPECT_FALSE(solve_for(loaded).result.shortfalls.empty());
 }
 
 TEST(Load, DistanceIsEnclosed) {

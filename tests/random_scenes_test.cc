@@ -1,6 +1,8 @@
 // Scenes drawn from everything that is admitted: solved and verified, or refused with a reason.
 #include "draw.h"
+#include "quantities.h"
 #include "rollwave/base/errors.h"
+#include "rollwave/output/summary_json.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
@@ -172,6 +174,36 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
   EXPECT_EQ(counts.not_solved, 0u);
   EXPECT_GE(counts.solved, 0.95 * n_scenes);
   EXPECT_GE(counts.compared, n_scenes / 50);
+}
+
+nlohmann::json solve(const Parameters& parameters, const Scene& scene) {
+  const Result result = simulate(scene, parameters).result;
+  return quantities_of(nlohmann::json::parse(summary_json(scene, parameters, result)));
+}
+
+TEST(RandomScenes, HaveTheSameNumbersByUzawasMethod) {
+  const unsigned int n_scenes = n_random_scenes(20);
+  Draw draw(11);
+  unsigned int n_compared = 0, n_refused = 0, n_not_solved = 0;
+  for (unsigned int i = 0; i < n_scenes; ++i) {
+    const std::vector<std::string> settings = draw_scene(draw);
+    SCOPED_TRACE("scene " + std::to_string(i) + text_of(settings));
+    try {
+      const Parameters parameters = parameters_of(settings);
+      const Scene scene = make_scene(parameters);
+      const nlohmann::json expected = solve(parameters, scene);
+      const nlohmann::json found = solve(with(parameters, {"Contact/Method=uzawa"}), scene);
+      expect_same_quantities(found, expected, tolerance_of_uzawa);
+      ++n_compared;
+    } catch (const BadInput&) {
+      ++n_refused;
+    } catch (const NotSolved& failure) {
+      ++n_not_solved;
+      std::printf("%u %s\n", i, failure.what());
+    }
+  }
+  std::printf("%u scenes: %u compared, %u refused as bad input, %u not solved\n", n_scenes,
+              n_compared, n_refused, n_not_solved);
 }
 
 double load_of(const Result& result, LoadKind kind) {

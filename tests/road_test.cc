@@ -83,6 +83,31 @@ TEST(Road, InsideOfADrumMustBeLargerThanTheCylinder) {
   EXPECT_NO_THROW(make_scene(parameters_of({"Road/Curvature=-0.99"})));
 }
 
+// The axle sees it under an angle that is a thousand times the accuracy of angles, in any unit.
+TEST(Road, DrumMustNotBeThinnerThanAnglesCanTell) {
+  for (const double b : {1., 0.035, 700.})
+    for (const double curvature : {0.99e10, 1.01e10, 1e16}) {
+      const auto make = [&] {
+        return make_scene(parameters_of(
+            {assignment("Cylinder/Inner radius", b / 2), assignment("Cylinder/Outer radius", b),
+             "Cylinder/Angular velocity=0", assignment("Road/Distance", 0.8 * b),
+             assignment("Road/Curvature", curvature / b)}));
+      };
+      if (curvature < 1e10) {
+        const Scene scene = make();
+        const double tangent = std::asin(1 / (1 + 0.8 * curvature));
+        EXPECT_NEAR((scene.zone_end - scene.zone_begin) / (2 * tangent), 1, 1e-4);
+        continue;
+      }
+      try {
+        make();
+        ADD_FAILURE() << curvature << " was not refused";
+      } catch (const BadValue& value) {
+        EXPECT_EQ(value.section + '/' + value.key, "Road/Curvature");
+      }
+    }
+}
+
 /// The scene of figure 4 on a road of this curvature, Q2.
 Solution solve_on(double curvature, const std::string& more, unsigned int angular_cells) {
   const Parameters parameters =
@@ -108,6 +133,44 @@ TEST(Road, DrumsConvergeToTheExactAnswer) {
     }
     EXPECT_GT(std::log2(errors[0] / errors[1]) / 2, 1.2); // Q2 has 3/2 in the end
   }
+}
+
+// The inside of a drum of the radius R, whose axis is e above that of the cylinder:
+// phi(x) = -e cos x + (R^2 - e^2 sin^2 x)^(1/2) - b, without further odd modes. Where the cylinder
+// fills it, u = phi all around, and with w = phi - u_f and the symbol sigma_k of each mode
+// F = -2 pi b sigma_0 w_0, V = pi b sigma_1 e, J = J(u_f) + a(w, w)/2.
+constexpr double sigma_1 = 1.6264193094; // a = 0.5, b = 1, omega = 0.5
+
+TEST(Road, CylinderThatFillsADrumTouchesItAllAround) {
+  struct Filled {
+    double distance, force, energy;
+  };
+  for (const auto& [distance, force, energy] :
+       {Filled{1.1, 1.8769758607, -0.3630600497}, Filled{1.05, 1.8843452669, -0.3523031880}}) {
+    const Parameters parameters = parameters_of({"Cylinder/Radial force=2", "Road/Curvature=-0.9",
+                                                 assignment("Road/Distance", distance),
+                                                 "Mesh/Radial cells=20", "Mesh/Angular cells=240"});
+    const Result result = simulate(make_scene(parameters), parameters).result;
+    EXPECT_EQ(result.patch.active_nodes, 480u);
+    EXPECT_NEAR(result.patch.half_width(), dealii::numbers::PI, 1e-12);
+    EXPECT_NEAR(result.patch.force, force, 1e-6);
+    EXPECT_NEAR(result.patch.vertical_load, dealii::numbers::PI * sigma_1 * (1 / 0.9 - distance),
+                1e-6);
+    EXPECT_NEAR(result.energy.value, energy, 1e-6);
+    EXPECT_LE(result.certified->lower_bound, energy);
+    EXPECT_GE(result.certified->upper_bound, energy);
+    EXPECT_LE(result.certified->relative, 1e-2);
+    EXPECT_TRUE(result.remarks.empty()) << result.remarks.front();
+  }
+}
+
+// Near the least distance the surface is free at the top, at the wanted one it is not.
+TEST(Road, LoadInsideOfADrumIsFoundWhereTheCylinderFillsIt) {
+  const Parameters parameters =
+      parameters_of({"Cylinder/Radial force=2", "Road/Curvature=-0.9", "Road/Load=0.1",
+                     "Mesh/Radial cells=10", "Mesh/Angular cells=120"});
+  const Result result = simulate(make_scene(parameters), parameters).result;
+  EXPECT_NEAR(result.road_distance, 1 / 0.9 - 0.1 / (dealii::numbers::PI * sigma_1), 1e-6);
 }
 
 TEST(Road, EnergyFallsWithTheDistanceByTheWorkConjugateLoad) {

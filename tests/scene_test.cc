@@ -93,6 +93,23 @@ TEST_P(PaperFigure, LoadIsTheSlopeOfTheEnergyOverTheDistance) {
 INSTANTIATE_TEST_SUITE_P(, PaperFigure, testing::ValuesIn(paper_scenes()),
                          [](const auto& info) { return std::to_string(info.param.figure); });
 
+// Numbers of the user may be off by some last digits; alpha must not be negative for that.
+TEST(Scene, IsEllipticUpToTheRoundedCriticalSpeed) {
+  for (const double b : {1., 3., 0.7, 1e-3 / 3})
+    for (const char* modulus : {"1", "3"}) {
+      const double critical = std::sqrt(std::stod(modulus)) / b;
+      for (double omega = critical; omega <= critical * (1 + 8e-16);
+           omega = std::nextafter(omega, 2 * omega)) {
+        const Scene scene = make_scene(parameters_of(
+            {assignment("Cylinder/Inner radius", b / 2), assignment("Cylinder/Outer radius", b),
+             assignment("Cylinder/Angular velocity", omega), assignment("Road/Distance", 0.8 * b),
+             std::string("Material/Shear modulus=") + modulus}));
+        EXPECT_GE(scene.alpha(scene.outer_radius), 0);
+        EXPECT_NEAR(scene.angular_velocity * scene.outer_radius, 1, 1e-15);
+      }
+    }
+}
+
 TEST(ActiveSet, SolvesOnStretchedCells) {
   // Long in r, the cells make the surface answer like a membrane, where signs move each end by one
   // node in a step; long in z, they leave a handful of nodes.

@@ -27,11 +27,12 @@ def read(directory, name):
     return reader.GetOutput()
 
 
-def run(directory, cells):
+def run(directory, cells, *settings):
     subprocess.run(
         [program, scene, "--output", directory, "--set", f"Mesh/Degree={degree}",
          "--set", "Mesh/Radial cells=8", "--set", f"Mesh/Angular cells={angular_cells}",
-         "--set", "Output/Files=solution, surface, summary", "--set", "Output/Cells=" + cells],
+         "--set", "Output/Files=solution, surface, summary", "--set", "Output/Cells=" + cells,
+         *(word for setting in settings for word in ("--set", setting))],
         check=True, stdout=subprocess.DEVNULL)
 
 
@@ -121,4 +122,14 @@ for cell in range(grid.GetNumberOfCells()):
         points.EvaluateLocation(reference(0), [1.0, a, 0.0], position, weights)
         outline = min(outline, position[1])
 check(outline >= -distance - spacing ** 2 / 8, "outline above the road")
+
+# The cylinder fills a drum: the gap is zero all around.
+with tempfile.TemporaryDirectory() as directory:
+    run(directory, "linear", "Cylinder/Radial force=2", "Road/Curvature=-0.9",
+        "Road/Distance=1.05")
+    surface = read(directory, "surface.vtu")
+fields = surface.GetPointData()
+for i in range(surface.GetNumberOfPoints()):
+    check(fields.GetArray("pressure").GetValue(i) > 0, "pressure all around")
+    check(abs(fields.GetArray("gap").GetValue(i)) < 1e-7, "no gap inside of a drum")
 print("1 passed, 0 failed")

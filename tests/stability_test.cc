@@ -1,12 +1,8 @@
 // Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
 #include "manufactured_scene.h"
-#include "rollwave/adapt/marking.h"
-#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 #include "test_scenes.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <gtest/gtest.h>
 
@@ -131,7 +127,7 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
 // With many cells marked the last one has next to no error, and parts of others would be cut until
 // they have as little.
 TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
-  for (const char* marking : {"Mesh/Marking=number", "Mesh/Marking=bulk", "Mesh/Marking=all"})
+  for (const char* marking : {"Mesh/Marking=bulk", "Mesh/Marking=all"})
     for (const char* fraction : {"Mesh/Marked fraction=0.6", "Mesh/Marked fraction=1"}) {
       const Parameters parameters = parameters_of(
           {marking, fraction, "Cylinder/Inner radius=0.99", "Road/Distance=0.995", "Mesh/Degree=1",
@@ -141,23 +137,6 @@ TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
       for (unsigned int cycle = 1; cycle < cycles.size(); ++cycle)
         EXPECT_LE(cycles[cycle].cells, 4 * cycles[cycle - 1].cells) << marking << ' ' << fraction;
     }
-}
-
-// CellId and p4est have no room for more; the cells around are cut no further either.
-TEST(Stability, RefinementEndsAtTheFinestLevel) {
-  const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
-  const Scene scene = make_scene(parameters);
-  const auto mesh = make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF);
-  bool is_cut = true;
-  for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
-    std::vector<double> indicators;
-    for (const auto& cell : mesh->active_cell_iterators())
-      indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
-    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1e6);
-  }
-  EXPECT_FALSE(is_cut);
-  EXPECT_EQ(mesh->n_levels(), 30);
-  EXPECT_TRUE(is_at_finest_level(*mesh));
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,77 +35,46 @@ std::optional<double> root(double z0, double value0, double z1, double value1, d
   return z0 - (z1 - z0) / (ratio - 1);
 }
 
-/// What decides how gap and pressure grow from an end.
-struct EndLaw {
-  double speed_margin; ///< 1 - omega b
-  double depth;        ///< int alpha^(1/2) dr from hub to surface, an angle
-  Road road;
-
-  EndLaw(const Scene& scene, const Road& road)
-      : speed_margin(std::max(0., 1 - scene.angular_velocity * scene.outer_radius)), depth(0),
-        road(road) {
-    const QGauss<1> gauss(8);
-    const double thickness = scene.outer_radius - scene.inner_radius;
-    for (unsigned int q = 0; q < gauss.size(); ++q)
-      depth +=
-          thickness * gauss.weight(q) *
-          std::sqrt(std::max(0., scene.alpha(scene.inner_radius + thickness * gauss.point(q)[0])));
-  }
-};
-
-/// Where the road meets the straight line through the displacements of two nodes outside of the
-/// contact, by Newton's method from the first one: on an elastic foundation the surface is nearly
-/// undisturbed there, while the road bends within a few nodes.
-double crossing(const Road& road, const Profile& nodes, int first, int second) {
-  const auto phi = [&](double z) { return road.displacement(from_lowest_point(z)); };
-  const auto& z = nodes.angle;
-  const double u = phi(z[first]) - nodes.gap[first];
-  const double slope = (phi(z[second]) - nodes.gap[second] - u) / (z[second] - z[first]);
-  double end = z[first];
-  for (int step = 0; step < 20; ++step)
-    end -= (phi(end) - u - slope * (end - z[first])) / (road.slope(from_lowest_point(end)) - slope);
-  return end;
+/// The exponent s of the end laws at distances of @p spacing.
+double end_exponent(const Scene& scene, double spacing) {
+  const double margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
+  return spacing > std::pow(2 * margin, 1.5) ? 1. / 3 : 1. / 2;
 }
 
 /// The end of a stretch beside its outermost node @p i, with @p n_outside nodes in the direction @p
 /// out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
-double find_end(const Profile& nodes, int i, int out, int n_outside, int n_inside,
-                const EndLaw& law) {
+double find_end(const Scene& scene, const Profile& nodes, int i, int out, int n_outside,
+                int n_inside) {
   const auto& z = nodes.angle;
-  const double spacing = std::abs(z[i] - z[i + out]);
-  const bool is_foundation = spacing > law.depth / 2;
-  const double s = is_foundation                                   ? 0
-                   : spacing > std::pow(2 * law.speed_margin, 1.5) ? 1. / 3
-                                                                   : 1. / 2;
+  const double spacing = std::abs(z[i] - z[i + out]), s = end_exponent(scene, spacing);
   const auto root_of_gap = [&](int near, int far) {
     const int k = i + near * out, l = i + far * out;
     return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
   };
   std::optional<double> end;
   if (n_outside >= 4)
-    end = is_foundation ? crossing(law.road, nodes, i + 2 * out, i + 4 * out) : root_of_gap(2, 4);
+    end = root_of_gap(2, 4);
   if (!end && n_outside >= 2)
     end = root_of_gap(1, 2);
   if (!end && n_inside >= 1)
     end = root(z[i], nodes.pressure[i], z[i - out], nodes.pressure[i - out], 1 / (1 - s));
-  if (end && is_foundation)
-    *end -= out * (2 * std::log(2.) / numbers::PI) * law.depth;
-  if (!end)
-    end = z[i] + out * spacing / 2;
-  const auto [low, high] = std::minmax(z[i + out] + out * spacing / 2, z[i] - out * spacing / 2);
-  return std::clamp(*end, low, high);
+  const double inner = z[i] - out * spacing / 2, outer = z[i + out] + out * spacing / 2;
+  return std::clamp(end.value_or(z[i] + out * spacing / 2), std::min(inner, outer),
+                    std::max(inner, outer));
 }
 
-/// The stretches of active nodes. Nodes that touch the road without pressing part none.
+/// The stretches of active nodes: two of them are apart where the gap of a node between them is
+/// larger than @p negligible_gap.
 std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profile& nodes,
                                     double negligible_gap) {
   const int n = active.size();
   std::vector<Stretch> stretches;
-  double opening = 0; // the largest gap since the last active node
+  double opening = 0; // the largest gap of the nodes since the last active one
   for (int i = 0; i < n; ++i) {
-    opening = std::max(opening, nodes.gap[i]);
-    if (!active[i])
+    if (!active[i]) {
+      opening = std::max(opening, nodes.gap[i]);
       continue;
+    }
     if (stretches.empty())
       stretches.push_back({i, i, i, 0});
     else if (opening > negligible_gap) {
@@ -122,12 +90,11 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
   return stretches;
 }
 
-/// Between the points of the road at two angles.
-double distance_on_road(const Road& road, double begin, double end) {
-  const double r = road.outer_radius + road.displacement(from_lowest_point(begin)),
-               s = road.outer_radius + road.displacement(from_lowest_point(end));
-  return std::hypot(r * std::cos(begin) - s * std::cos(end),
-                    r * std::sin(begin) - s * std::sin(end));
+/// Between which angles contact can end: those of the zone, up to the tangent of a drum.
+std::pair<double, double> reach_of(const Scene& scene, const Road& road) {
+  const double lowest_point = 3 * numbers::PI / 2, tangent = road.tangent_angle();
+  return {std::max(scene.zone_begin, lowest_point - tangent),
+          std::min(scene.zone_end, lowest_point + tangent)};
 }
 
 } // namespace
@@ -153,18 +120,20 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
     profile.angle.push_back(nodes[i].angle);
     resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure[i]);
   }
-  const EndLaw law(scene, problem.shape);
-  for (const Stretch& stretch :
-       find_stretches(solution.active, profile, 1e-10 * displacement.linfty_norm())) {
+  const auto [least_begin, largest_end] = reach_of(scene, problem.shape);
+  const double negligible_gap = std::max(solution.gap_accuracy, 1e-10 * displacement.linfty_norm());
+  for (const Stretch& stretch : find_stretches(solution.active, profile, negligible_gap)) {
     const auto [first, last, n_before, n_behind] = stretch;
-    ContactPatch patch = {scene.zone_begin, scene.zone_end, 0, 0, 0};
+    ContactPatch patch = {least_begin, largest_end, 0, 0, 0};
     if (n_before > 0)
-      patch.begin = find_end(profile, first, -1, n_before, last - first, law);
+      patch.begin =
+          std::max(least_begin, find_end(scene, profile, first, -1, n_before, last - first));
     if (n_behind > 0)
-      patch.end = find_end(profile, last, 1, n_behind, last - first, law);
+      patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_behind, last - first));
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
-    patch.length = distance_on_road(problem.shape, patch.begin, patch.end);
+    patch.length = problem.shape.arc_length(from_lowest_point(patch.end)) -
+                   problem.shape.arc_length(from_lowest_point(patch.begin));
     for (int i = first; i <= last; ++i) {
       patch.force += force(i);
       patch.centroid += force(i) * profile.angle[i];

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -16,16 +17,18 @@ using namespace dealii;
 
 namespace {
 
-[[noreturn]] void refuse_load(const Scene& scene, double largest) {
+/// @param load at the nearest or farthest @p distance
+[[noreturn]] void refuse_load(const Scene& scene, const std::string& where, double distance,
+                              double load) {
   std::ostringstream text;
   text.precision(6);
-  text << "no distance gives this load: where the road is nearest to the axle, at "
-       << scene.least_distance * scene.units.length << ", it is about "
-       << largest * scene.units.of(Quantity::force);
+  text << "no distance gives this load: where the road is " << where << " the axle, at "
+       << distance * scene.units.length << ", it is about "
+       << load * scene.units.of(Quantity::force);
   throw BadValue("Road", "Load", text.str());
 }
 
-/// Distances between which the wanted one lies.
+/// The distances between which the wanted one lies. The load falls as the distance grows.
 struct Bracket {
   double near, far;
   bool is_near_tried = false, is_far_tried = false;
@@ -41,42 +44,101 @@ struct Bracket {
     (excess > 0 ? is_near_tried : is_far_tried) = true;
   }
 
-  /// Whether both ends are neighbouring numbers, between which the load changes by more than the
+  /// True if both ends are neighbouring numbers, between which the load changes by more than the
   /// tolerance.
-  bool is_exhausted() const { return is_far_tried && far - near <= 4e-16 * near; }
+  bool is_exhausted() const { return is_near_tried && is_far_tried && far - near <= 4e-16 * near; }
 
-  /// The distance to try next: that of Newton's method, @p newton, unless it leads out of the
-  /// bracket or is not a number.
-  double next(double newton) const {
-    if (near < newton && newton < far)
-      return newton;
-    if (!is_near_tried && !std::isnan(newton))
+  /// The distance to try next: that of Newton's method if it lies within the bracket. Otherwise an
+  /// end that has not been tried, so that a load out of reach is found at once, or the middle.
+  /// @param newton nullopt without contact, where the stiffness is 0
+  double next(std::optional<double> newton) const {
+    if (newton && near < *newton && *newton < far)
+      return *newton;
+    if (!is_near_tried && !(newton && *newton >= far))
       return near;
-    return std::isfinite(far) ? (near + far) / 2 : 2 * near;
+    if (!is_far_tried && std::isfinite(far))
+      return far;
+    return std::isfinite(far) ? near + (far - near) / 2 : 2 * near;
   }
 };
 
-} // namespace
-
-Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& problem,
-                        const ContactSolution& solution) {
-  ContactState moved = solution.state;
-  moved.force = 0;
+/// The change of the contact state for each unit of length by which the road comes nearer while the
+/// same nodes stay in contact: they follow it, du_i = -dphi/dc.
+ContactState rate_of_approach(ContactLinearSolver& solver, const ContactProblem& problem,
+                              const ContactSolution& solution) {
+  Vector<double> displacement(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      moved.displacement(i) =
-          solution.state.displacement(i) + problem.shape.distance_derivative(problem.x[i]);
-  solver.solve(solution.active, moved, final_accuracy);
-  Vector<double> change = solution.state.force;
-  change -= moved.force;
+      displacement(i) = -problem.shape.distance_derivative(problem.x[i]);
+  return solver.derivative(solution.active, displacement, final_accuracy);
+}
+
+/// -d/dc of the loads while the same nodes stay in contact. For the work-conjugate load
+/// G = sum_i N_i g_i, g_i = dphi/dc(z_i), the change of g_i counts too.
+Loads stiffness_of_set(const ContactProblem& problem, const ContactSolution& solution,
+                       const ContactState& rate) {
+  Loads stiffness = loads_of(problem, rate.force);
   for (unsigned int i = 0; i < problem.size(); ++i)
-    if (!solution.active[i])
-      change(i) = 0;
-  Loads stiffness = loads_of(problem, change);
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    stiffness.work_conjugate -=
-        solution.state.force(i) * problem.shape.second_distance_derivative(problem.x[i]);
+    if (solution.active[i])
+      stiffness.work_conjugate -=
+          solution.state.force(i) * problem.shape.second_distance_derivative(problem.x[i]);
   return stiffness;
+}
+
+/// How much nearer the road comes while contact grows by about @p n_cells cells at an end, the
+/// largest of all ends. A node at the end entered contact force / force rate ago, and its neighbour
+/// outside follows after gap / gap rate.
+double approach_of_growth(const ContactProblem& problem, const ContactSolution& solution,
+                          const ContactState& rate, unsigned int degree, double n_cells) {
+  const int n = problem.size(), p = degree;
+  double approach = 0;
+  for (int i = 0; i < n; ++i)
+    for (const int out : {-1, 1}) {
+      const int j = i + out;
+      if (!solution.active[i] || j < 0 || j >= n || solution.active[j])
+        continue;
+      const double gap = problem.road(j) - solution.state.displacement(j);
+      const double gap_rate =
+          problem.shape.distance_derivative(problem.x[j]) + rate.displacement(j);
+      if (!(rate.force(i) > 0 && gap_rate > 0))
+        continue;
+      const double of_node = solution.state.force(i) / rate.force(i) + gap / gap_rate;
+      const double cell = std::abs(problem.x[std::clamp(i + p * out, 0, n - 1)] - problem.x[i]);
+      const double spacing = std::abs(problem.x[j] - problem.x[std::clamp(i - out, 0, n - 1)]) / 2;
+      approach = std::max(approach, n_cells * of_node * cell / spacing);
+    }
+  return approach;
+}
+
+} // namespace
+
+Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
+                        const ContactProblem& problem, const ContactSolution& solution,
+                        unsigned int most_steps) {
+  const ContactState rate = rate_of_approach(solver, problem, solution);
+  const Loads of_set = stiffness_of_set(problem, solution, rate);
+  if (!(of_set.total > 0))
+    return of_set;
+  // The nodes at the ends come and go alike after each cell: two cells average over them.
+  constexpr double n_cells = 2;
+  const Bracket limits(scene);
+  const double c = scene.road_distance;
+  const double step = std::min(
+      {approach_of_growth(problem, solution, rate, space.dof_handler().get_fe().degree, n_cells) /
+           2,
+       loads_of(problem, solution.state.force).total / of_set.total / 2, c - limits.near,
+       limits.far - c});
+  if (!(step > 1e-10 * c))
+    return of_set;
+  const auto loads_at = [&](double distance) {
+    const ContactProblem moved = make_contact_problem(space, with_distance(scene, distance));
+    const ContactSolution contact =
+        active_set(solver, moved, most_steps, problem.pressures(solution.state.force));
+    return loads_of(moved, contact.state.force);
+  };
+  const Loads near = loads_at(c - step), far = loads_at(c + step);
+  return {(near.total - far.total) / (2 * step), (near.vertical - far.vertical) / (2 * step),
+          (near.work_conjugate - far.work_conjugate) / (2 * step)};
 }
 
 RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
@@ -84,29 +146,68 @@ RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, 
   constexpr double tolerance = 1e-10;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
-  Bracket bracket(scene);
-  RoadPosition road = {scene.road_distance, start};
+  const Bracket limits(scene);
+  Bracket bracket = limits;
+  RoadPosition road = {scene.road_distance, 0, start};
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
     const ContactProblem problem = make_contact_problem(space, with_distance(scene, road.distance));
     const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);
     road.pressure = problem.pressures(contact.state.force);
-    const double excess = loads_of(problem, contact.state.force).of(kind) - wanted;
+    road.load = loads_of(problem, contact.state.force).of(kind);
+    const double excess = road.load - wanted;
     if (std::abs(excess) <= tolerance * wanted)
       return road;
-    if (excess < 0 && road.distance == scene.least_distance)
-      refuse_load(scene, wanted + excess);
+    if (excess < 0 && road.distance == limits.near)
+      refuse_load(scene, "nearest to", road.distance, road.load);
+    if (excess > 0 && road.distance == limits.far)
+      refuse_load(scene, "farthest from", road.distance, road.load);
     bracket.narrow(road.distance, excess);
     if (bracket.is_exhausted())
       return road;
-    const double stiffness = contact_stiffness(solver, problem, contact).of(kind);
-    road.distance = bracket.next(stiffness > 0 ? road.distance + excess / stiffness
-                                               : std::numeric_limits<double>::quiet_NaN());
+    const double stiffness =
+        stiffness_of_set(problem, contact, rate_of_approach(solver, problem, contact)).of(kind);
+    road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
+                                               : std::nullopt);
   }
   std::ostringstream text;
   text << "no distance was found for Road/Load = " << wanted * scene.units.of(Quantity::force)
-       << ": after " << most_trials << " trials it is between " << bracket.near * scene.units.length
-       << " and " << bracket.far * scene.units.length;
+       << ": after " << most_trials << " trials the distance is between "
+       << bracket.near * scene.units.length << " and " << bracket.far * scene.units.length
+       << ", and the load reached is " << road.load * scene.units.of(Quantity::force);
   throw NotSolved(text.str());
+}
+
+std::optional<std::string> missing_load_text(const Scene& scene, double load) {
+  constexpr double tolerance = 1e-9;
+  const double wanted = scene.load->value, force = scene.units.of(Quantity::force);
+  if (std::abs(load - wanted) <= tolerance * wanted)
+    return {};
+  std::ostringstream text;
+  text << "the load is " << std::setprecision(12) << load * force << ", wanted " << wanted * force
+       << std::setprecision(3) << " (relative difference " << std::abs(load / wanted - 1)
+       << "): no distance between two neighbouring numbers comes nearer; change Road/Load, or "
+          "prescribe Road/Distance";
+  return text.str();
+}
+
+bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
+  const unsigned int n = problem.size();
+  const double tangent = problem.shape.tangent_angle();
+  const auto first = std::find(active.begin(), active.end(), true);
+  if (first == active.end())
+    return false;
+  const unsigned int left = first - active.begin(),
+                     right = n - 1 -
+                             (std::find(active.rbegin(), active.rend(), true) - active.rbegin());
+  const auto& x = problem.x;
+  // Beyond the last node of the zone the spacing goes on.
+  const double beyond_left = left > 0 ? x[left - 1]
+                             : n > 1  ? 2 * x[0] - x[1]
+                                      : x[0],
+               beyond_right = right + 1 < n ? x[right + 1]
+                              : n > 1       ? 2 * x[n - 1] - x[n - 2]
+                                            : x[0];
+  return beyond_left <= -tangent || beyond_right >= tangent;
 }
 
 } // namespace rollwave

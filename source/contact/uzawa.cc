@@ -151,6 +151,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     if (!is_converged && is_interrupted(problem.communicator))
       solution.shortfall = interruption_text(options, solution.history);
     if (is_converged || solution.shortfall) {
+      solution.gap_accuracy = std::max(options.tolerance * size, measured);
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);
       return solution;

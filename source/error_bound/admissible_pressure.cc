@@ -4,6 +4,7 @@
 #include "rollwave/mesh/ring_space.h"
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using namespace dealii;
 
 namespace {
 
-/// Whether an edge lies wholly in the zone.
+/// True if an edge lies wholly in the zone.
 bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
   return scene.is_in_zone(face.begin) && scene.is_in_zone(face.end);
 }
@@ -34,68 +35,56 @@ std::vector<double> nodal_pressures(const RingSpace& space, const Scene& scene,
   return pressures;
 }
 
-/// The power of t, on the edge where contact ends, that pressures of a degree take.
-unsigned int end_power(unsigned int degree) {
-  return degree == 1 ? 0 : degree == 2 ? 2 : 1;
+/// Moves forces off the edges beyond a vertex where contact ends: they would lie under a gap there.
+void move_into_contact(const std::vector<SurfaceFace>& faces, const std::vector<double>& pressures,
+                       std::vector<EdgePressure>& edges) {
+  const auto n_pressed = [&](unsigned int edge) {
+    return std::count_if(faces[edge].nodes.begin(), faces[edge].nodes.end(),
+                         [&](unsigned int node) { return pressures[node] > 0; });
+  };
+  const auto move = [&](unsigned int from, unsigned int to) {
+    const bool is_in_zone = edges[to].mean > 0;
+    if (n_pressed(from) != 1 || n_pressed(to) < 2 || !is_in_zone)
+      return;
+    edges[to].mean += edges[from].mean * (faces[from].end - faces[from].begin) /
+                      (faces[to].end - faces[to].begin);
+    edges[from] = {0, 0};
+  };
+  for (unsigned int i = 0; i < faces.size(); ++i) {
+    const unsigned int next = (i + 1) % faces.size();
+    if (pressures[faces[next].nodes.front()] > 0) {
+      move(i, next);
+      move(next, i);
+    }
+  }
 }
 
-/// The mean of the multiple of (1 - t)^q that is nearest to value (1 - t / root).
-double mean_beyond(double value, double root, unsigned int q) {
-  return value * (1 - 1 / (root * (q + 2))) * (2. * q + 1) / ((q + 1.) * (q + 1.));
+/// @throws ExcInternalError where the mean is negative
+EdgePressure nonnegative_pressure(double mean, double slope) {
+  AssertThrow(mean >= 0, ExcInternalError());
+  return {mean, std::clamp(slope, -2 * mean, 2 * mean)};
 }
 
 } // namespace
 
 std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Scene& scene,
                                                const ContactSolution& contact) {
-  const unsigned int degree = space.dof_handler().get_fe().degree, q = end_power(degree);
+  const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGaussLobatto<1> lobatto(degree + 1);
   const std::vector<double> pressures = nodal_pressures(space, scene, contact);
-  const auto pressure = [&](const SurfaceFace& face, unsigned int k) {
-    return pressures[face.nodes[k]];
-  };
-  const std::vector<SurfaceFace>& faces = space.surface_faces();
-
   std::vector<EdgePressure> edges;
-  for (const SurfaceFace& face : faces) {
-    if (!is_in_zone(face, scene)) {
-      edges.push_back({0, 0});
+  for (const SurfaceFace& face : space.surface_faces()) {
+    edges.push_back({0, 0});
+    if (!is_in_zone(face, scene))
       continue;
-    }
-    double mean = 0;
     for (unsigned int k = 0; k <= degree; ++k)
-      mean += lobatto.weight(k) * pressure(face, k);
-    edges.push_back({mean, degree > 1 ? pressure(face, degree) - pressure(face, 0) : 0.});
+      edges.back().mean += lobatto.weight(k) * pressures[face.nodes[k]];
+    if (degree > 1)
+      edges.back().slope = pressures[face.nodes[degree]] - pressures[face.nodes[0]];
   }
-
-  const auto shift = [&](unsigned int outside, unsigned int inside, bool contact_lies_before) {
-    const SurfaceFace &out = faces[outside], &in = faces[inside];
-    const unsigned int end = contact_lies_before ? 0 : degree;
-    const auto n_pressed = std::count_if(out.nodes.begin(), out.nodes.end(),
-                                         [&](unsigned int node) { return pressures[node] > 0; });
-    if (!(edges[outside].mean > 0) || !(edges[inside].mean > 0) || n_pressed > 1 ||
-        pressure(out, end) == 0)
-      return;
-    const double last = pressure(out, end);
-    const double before = pressure(in, contact_lies_before ? degree - 1 : 1);
-    if (before <= last)
-      return;
-    const double length = out.end - out.begin, length_inside = in.end - in.begin;
-    const double root = lobatto.point(1)[0] * length_inside * last / (before - last) / length;
-    const double moved =
-        edges[outside].mean - std::clamp(mean_beyond(last, root, q), 0., edges[outside].mean);
-    edges[outside].mean -= moved;
-    edges[inside].mean += moved * length / length_inside;
-  };
-  for (unsigned int i = 0; i < edges.size(); ++i) {
-    const unsigned int next = (i + 1) % edges.size();
-    shift(next, i, true);
-    shift(i, next, false);
-  }
-  for (EdgePressure& edge : edges) {
-    const double limit = degree > 1 ? (q + 1) * edge.mean : 0;
-    edge.slope = std::clamp(edge.slope, -limit, limit);
-  }
+  move_into_contact(space.surface_faces(), pressures, edges);
+  for (EdgePressure& edge : edges)
+    edge = nonnegative_pressure(edge.mean, edge.slope);
   return edges;
 }
 

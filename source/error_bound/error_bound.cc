@@ -2,7 +2,6 @@
 
 #include "rollwave/base/work.h"
 #include "rollwave/error_bound/admissible_pressure.h"
-#include "rollwave/error_bound/angular_enrichment.h"
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/stress_function.h"
 #include "rollwave/mesh/line_elements.h"
@@ -23,33 +22,26 @@ using namespace dealii;
 namespace {
 
 /// What a Certificate is made of: v = displacement + c xi, c that of the trace and xi linear from 0
-/// to 1 across the row of cells at the surface; psi = potential + bubbles.
+/// to 1 across the row of cells at the surface.
 struct AdmissibleFields {
   const FieldVector& displacement; ///< u_h, with the contact nodes on the road or before it
   const AdmissibleTrace& trace;
-  const std::vector<EdgePressure>& pressures; ///< lambda without the bubbles' share
-  const FieldVector& potential;
-  const std::vector<double>& bubbles; ///< of angular_enrichment()
-  const ForceIntegral* force;         ///< nullptr without force
+  const std::vector<EdgePressure>& pressures; ///< lambda
+  const FieldVector& potential;               ///< psi
+  const ForceIntegral* force;                 ///< nullptr without force
 };
 
 /// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
 struct AngularShapes {
   std::vector<double> value, derivative; ///< the latter d/dt
-  double bubble;                         ///< of angular_enrichment(): beta
-  double mode;                           ///< P
 
-  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange,
-                const Polynomials::Polynomial<double>& beta, double t) {
+  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t) {
     double both[2];
     for (const auto& polynomial : lagrange) {
       polynomial.value(t, 1, both);
       value.push_back(both[0]);
       derivative.push_back(both[1]);
     }
-    beta.value(t, 1, both);
-    bubble = both[0];
-    mode = both[1];
   }
 };
 
@@ -74,12 +66,11 @@ public:
                 RadialShapesOfMesh& shapes)
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
-        beta(angular_mode(n - 1).primitive()),
-        rule(fields.force ? fields.force->rule() : QGauss<1>(n + 1)), along_road(n + 5),
+        rule(fields.force ? fields.force->rule() : QGauss<1>(n)), along_road(n + 5),
         dofs(space.dof_handler()), u(n * n), psi(n * n), line_u(n), line_u_z(n), line_psi(n),
         line_psi_z(n) {
     for (const auto& point : rule.get_points())
-      lines.emplace_back(lagrange, beta, point[0]);
+      lines.emplace_back(lagrange, point[0]);
   }
 
   Integrals over(const DoFHandler<2>::active_cell_iterator& cell) {
@@ -94,7 +85,6 @@ public:
       u[i] = fields.displacement(of_cell[i]);
       psi[i] = fields.potential(of_cell[i]);
     }
-    g = &fields.bubbles[n * number];
     if (const auto edge = space.surface_face(cell))
       return at_surface(*edge);
     Integrals sums;
@@ -115,14 +105,12 @@ private:
         const double t = piece.t_begin + share * along_road.point(p)[0];
         const double weight = along_road.weight(p) * share * length;
         const auto correction = fields.trace.correction(edge, piece, t);
-        const AngularShapes angular(lagrange, beta, t);
-        // b lambda
-        const double moment =
-            scene.outer_radius * fields.pressures[edge](t) + g[n - 1] * angular.mode;
+        const AngularShapes angular(lagrange, t);
         if (fields.force)
           fields.force->on_line_at(number, t, moments);
         sums.add(on_line(angular, correction, fields.force ? moments.data() : nullptr), weight);
-        sums.bound_squared += 2 * weight * moment * correction.gap;
+        sums.bound_squared +=
+            2 * weight * scene.outer_radius * fields.pressures[edge](t) * correction.gap;
       }
     return sums;
   }
@@ -139,8 +127,7 @@ private:
         line_psi_z[i] += angular.derivative[j] * psi[i + n * j];
       }
       line_u_z[i] /= length;
-      line_psi[i] += length * angular.bubble * g[i];
-      line_psi_z[i] = line_psi_z[i] / length + angular.mode * g[i];
+      line_psi_z[i] /= length;
     }
     const double correction_r = correction.value / height;
     Integrals sums;
@@ -172,12 +159,10 @@ private:
   RadialShapesOfMesh& shapes;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
-  const Polynomials::Polynomial<double> beta;
   const QGauss<1> rule, along_road;
   std::vector<AngularShapes> lines; ///< of the rule
   LexicographicDofs dofs;
   std::vector<double> u, psi; ///< values at those of the cell
-  const double* g = nullptr;  ///< of the bubbles
   Point<2> low, high;
   double length = 0, height = 0;
   unsigned int number = 0; ///< of the active cell
@@ -248,11 +233,8 @@ Certificate certify(const RingSpace& space, const Scene& scene, const ContactPro
   const auto pressures = admissible_pressures(space, scene, contact);
   const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
   const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, work);
-  RadialShapesOfMesh& shapes = stress_function.shapes();
-  const std::vector<double> bubbles =
-      angular_enrichment(space, scene, shapes, potential, pressures, nonuniform);
-  auto [integrals, cell_bounds] =
-      integrate(space, scene, {displacement, trace, pressures, potential, bubbles, force}, shapes);
+  auto [integrals, cell_bounds] = integrate(
+      space, scene, {displacement, trace, pressures, potential, force}, stress_function.shapes());
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};
 }

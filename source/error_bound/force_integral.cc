@@ -2,7 +2,6 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/error_bound/force_scan.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
@@ -11,8 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 #include <utility>
@@ -22,6 +21,14 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
+
+using Cell = DoFHandler<2>::active_cell_iterator;
+
+/// Lines z = const through each cell on which G is compared with G_h.
+constexpr unsigned int n_lines = 32;
+
+/// How many times as many points the finer rule along r has.
+constexpr unsigned int finer = 4;
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().
 std::vector<double> all_radii(const RingSpace& space) {
@@ -54,11 +61,84 @@ double missed_between_points(const RadialShapes& radial, const double* line) {
   return sum;
 }
 
+/// The integrals of w from each of increasing radii to the last one, by a rule on each interval
+/// between them.
+template <typename Function>
+std::vector<double> integrate_inwards(const std::vector<double>& radii, const Quadrature<1>& rule,
+                                      const Function& w) {
+  std::vector<double> integrals(radii.size());
+  for (unsigned int k = radii.size() - 1; k-- > 0;) {
+    const double length = radii[k + 1] - radii[k];
+    integrals[k] = integrals[k + 1];
+    for (unsigned int q = 0; q < rule.size(); ++q)
+      integrals[k] += length * rule.weight(q) * w(radii[k] + length * rule.point(q)[0]);
+  }
+  return integrals;
+}
+
+/// G between two angles.
+struct SectorSamples {
+  std::vector<std::vector<double>> lines;     ///< at some radii, on the lines of the rule along z
+  std::vector<double> missed_along_r;         ///< of the middle line
+  std::vector<double> missed_along_z_squared; ///< mean squares of G - G_h, at the ends of cells
+  double widest_gap;                          ///< between the points of the finer rule
+};
+
+/// @param rule along z
+/// @param lagrange polynomials of its points
+/// @param ends of cells along r
+/// @param radii with the ends among them
+/// @throws BadValue where f is not finite
+SectorSamples sample_sector(const Scene& scene, const Quadrature<1>& rule,
+                            const std::vector<Polynomials::Polynomial<double>>& lagrange,
+                            const std::vector<double>& ends, const std::vector<double>& radii,
+                            double begin, double length) {
+  const auto on_line = [&](double t, const std::vector<double>& at, const Quadrature<1>& along_r) {
+    const double z = std::fmod(begin + t * length, 2 * numbers::PI);
+    return integrate_inwards(at, along_r, [&](double r) {
+      const double f = scene.force(r, z);
+      if (!std::isfinite(f))
+        throw BadValue("Cylinder", "Radial force", force_not_finite_at(scene, r, z));
+      return r * f;
+    });
+  };
+  const QGauss<1> gauss(2);
+  const QMidpoint<1> midpoint;
+  SectorSamples samples{{}, {}, std::vector<double>(ends.size()), 0};
+  std::vector<std::vector<double>> coarse_lines;
+  for (const Point<1>& point : rule.get_points()) {
+    samples.lines.push_back(on_line(point[0], radii, gauss));
+    coarse_lines.push_back(on_line(point[0], ends, midpoint));
+  }
+  for (unsigned int i = 0; i < n_lines; ++i) {
+    // Jumps at the ends are those of the neighbour.
+    const double t = std::clamp(i / (n_lines - 1.), 1e-8, 1 - 1e-8);
+    std::vector<double> missed = on_line(t, ends, midpoint);
+    for (unsigned int k = 0; k < ends.size(); ++k) {
+      for (unsigned int p = 0; p < rule.size(); ++p)
+        missed[k] -= lagrange[p].value(t) * coarse_lines[p][k];
+      samples.missed_along_z_squared[k] += missed[k] * missed[k] / n_lines;
+    }
+  }
+  const unsigned int middle = rule.size() / 2;
+  samples.missed_along_r = on_line(rule.point(middle)[0], radii, QIterated<1>(gauss, finer));
+  for (unsigned int k = 0; k < radii.size(); ++k)
+    samples.missed_along_r[k] -= samples.lines[middle][k];
+  for (unsigned int k = 0; k + 1 < radii.size(); ++k) // that of Gauss' two points
+    samples.widest_gap = std::max(samples.widest_gap, 0.5774 * (radii[k + 1] - radii[k]) / finer);
+  return samples;
+}
+
+/// The place of a value in an increasing list.
+unsigned int place_of(double value, const std::vector<double>& list) {
+  return std::lower_bound(list.begin(), list.end(), value) - list.begin();
+}
+
 } // namespace
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
     : uniform(scene.uniform_force.has_value()),
-      angular(space.dof_handler().get_fe().degree + (uniform ? 2 : 3)),
+      angular(space.dof_handler().get_fe().degree + (uniform ? 1 : 3)),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (uniform)
@@ -79,66 +159,64 @@ void ForceIntegral::take_uniform(const RingSpace& space, double f, RadialShapesO
 
 void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
                                     RadialShapesOfMesh& shapes) {
-  using Cell = DoFHandler<2>::active_cell_iterator;
   std::map<std::pair<double, double>, std::vector<Cell>> sectors; // by intervals of z
-  Point<2> largest_cell;
   for (const auto& cell : space.dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned()) {
+    if (cell->is_locally_owned())
       sectors[{cell->vertex(0)[1], cell->vertex(3)[1]}].push_back(cell);
-      for (const unsigned int d : {0U, 1U})
-        largest_cell[d] = std::max(largest_cell[d], cell->vertex(3)[d] - cell->vertex(0)[d]);
-    }
-  const std::vector<double> all_ends = all_radii(space);
-  ForceScan scan(scene, angular);
+  const std::vector<double> mesh_radii = all_radii(space);
   errors_squared.resize(values.size());
-  double sum = 0;
-  for (const auto& [interval, cells] : sectors) {
-    double innermost = scene.outer_radius;
-    std::vector<double> radii;
-    for (const Cell& cell : cells) {
-      const RadialShapes& radial = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]);
-      radii.insert(radii.end(), radial.r.begin(), radial.r.end());
-      innermost = std::min(innermost, cell->vertex(0)[0]);
-    }
-    const double length = interval.second - interval.first;
-    const ForceScan::Sector sector =
-        scan.sector({std::lower_bound(all_ends.begin(), all_ends.end(), innermost), all_ends.end()},
-                    radii, interval.first, length);
-    std::size_t place = 0; // of a cell's first radius
-    for (const Cell& cell : cells) {
-      const RadialShapes& radial = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]);
-      const unsigned int index = cell->active_cell_index(), n_r = radial.r.size();
-      double& square = errors_squared[index];
-      for (unsigned int p = 0; p < angular.size(); ++p) {
-        const double* const line = &sector.lines[p][place];
-        values[index].insert(values[index].end(), line, line + n_r);
-        square += length * angular.weight(p) * missed_between_points(radial, line);
-      }
-      for (unsigned int q = 0; q < n_r; ++q)
-        square += length * radial.weight_over_r[q] * std::pow(sector.missed[place + q], 2);
-      sum += square;
-      place += n_r;
-    }
+  std::string refusal;
+  try {
+    for (const auto& [interval, cells] : sectors)
+      take_sector(scene, mesh_radii, cells, shapes);
+  } catch (const BadValue& bad) {
+    refusal = bad.wanted;
   }
-  conclude(space, scan, sum, largest_cell);
+  if (refusal = first_text(space.communicator(), refusal); !refusal.empty())
+    throw BadValue("Cylinder", "Radial force", refusal);
+  const double squared = std::accumulate(errors_squared.begin(), errors_squared.end(), 0.);
+  delta = std::sqrt(Utilities::MPI::sum(squared, space.communicator()));
+  width = Utilities::MPI::max(width, space.communicator());
 }
 
-/// Makes delta and the width of the scan from what this and the other processes have seen.
-void ForceIntegral::conclude(const RingSpace& space, const ForceScan& scan, double sum,
-                             Point<2> largest_cell) {
-  const std::string refusal = first_text(space.communicator(), scan.refusal());
-  if (!refusal.empty())
-    throw BadValue("Cylinder", "Radial force", refusal);
-  const auto largest_of_all = [&](double value) {
-    return Utilities::MPI::max(value, space.communicator());
-  };
-  for (const unsigned int d : {0U, 1U})
-    largest_cell[d] = largest_of_all(largest_cell[d]) * ForceScan::widest_gap;
-  width = std::max(largest_cell[0], space.outer_radius() * largest_cell[1]);
-  const bool sees_pole =
-      scan.largest() == largest_of_all(scan.largest()) && scan.has_pole(largest_cell);
-  delta = largest_of_all(sees_pole) > 0 ? std::numeric_limits<double>::infinity()
-                                        : std::sqrt(Utilities::MPI::sum(sum, space.communicator()));
+/// Takes G_h, delta and width on the cells between two angles.
+void ForceIntegral::take_sector(const Scene& scene, const std::vector<double>& mesh_radii,
+                                const std::vector<Cell>& cells, RadialShapesOfMesh& shapes) {
+  const double begin = cells.front()->vertex(0)[1], length = cells.front()->vertex(3)[1] - begin;
+  double innermost = scene.outer_radius;
+  std::vector<double> radii;
+  for (const Cell& cell : cells) {
+    const RadialShapes& radial = shapes.on(cell->vertex(0)[0], cell->vertex(3)[0]);
+    radii.insert(radii.end(), radial.r.begin(), radial.r.end());
+    innermost = std::min(innermost, cell->vertex(0)[0]);
+  }
+  const std::vector<double> ends(std::lower_bound(mesh_radii.begin(), mesh_radii.end(), innermost),
+                                 mesh_radii.end());
+  radii.insert(radii.end(), ends.begin(), ends.end());
+  std::sort(radii.begin(), radii.end());
+  const SectorSamples samples = sample_sector(scene, angular, lagrange, ends, radii, begin, length);
+
+  width = std::max({width, samples.widest_gap, scene.outer_radius * length / (n_lines - 1)});
+  for (const Cell& cell : cells) {
+    const double low = cell->vertex(0)[0], high = cell->vertex(3)[0];
+    const RadialShapes& radial = shapes.on(low, high);
+    const unsigned int index = cell->active_cell_index(), n_r = radial.r.size();
+    double between = 0, along_r = 0;
+    for (unsigned int p = 0; p < angular.size(); ++p) {
+      for (const double r : radial.r)
+        values[index].push_back(samples.lines[p][place_of(r, radii)]);
+      between += angular.weight(p) * missed_between_points(radial, &values[index][p * n_r]);
+    }
+    for (unsigned int q = 0; q < n_r; ++q)
+      along_r += radial.weight_over_r[q] *
+                 std::pow(samples.missed_along_r[place_of(radial.r[q], radii)], 2);
+    const double along_z = std::log(high / low) *
+                           (samples.missed_along_z_squared[place_of(low, ends)] +
+                            samples.missed_along_z_squared[place_of(high, ends)]) /
+                           2;
+    errors_squared[index] =
+        length * (between + 4 * std::pow(std::sqrt(along_r) + std::sqrt(along_z), 2));
+  }
 }
 
 void ForceIntegral::on_line_at(unsigned int cell, double t, std::vector<double>& line) const {

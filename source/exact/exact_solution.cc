@@ -166,7 +166,8 @@ ExactSolution solve_exactly(const ExactScene& scene) {
   const bool is_critical = crossover < 1e-7 * crossing;
   const bool is_slow = crossover > 0.3 * crossing;
   // A zone narrower than the free contact shows in a defect of the sign of a w that is too small.
-  if (scene.zone_half_width < crossing &&
+  // The tangent of a drum is not such a zone: the contact ends before it.
+  if (scene.zone_half_width < (1 - 1e-9) * crossing &&
       GalerkinPressure(scene, modes, is_critical ? 2. / 3 : 0.5, 24)
               .solve(scene.zone_half_width)
               .defect > 0) {

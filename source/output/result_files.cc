@@ -72,12 +72,19 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
   }
 }
 
+/// summary.json with what has been done so far; all processes must ask.
+std::string summary_of(const Parameters& parameters, const Solution& solution) {
+  Result result = in_users_units(solution.result, solution.scene.units);
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
+  return summary_json(solution.scene, parameters, result);
+}
+
 } // namespace
 
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution) {
   const Scene& scene = solution.scene;
-  Result result = in_users_units(solution.result, scene.units);
+  const Result result = in_users_units(solution.result, scene.units);
   WrittenFiles written;
   Work& work = solution.result.work;
   const MPI_Comm communicator = solution.space->communicator();
@@ -104,13 +111,20 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
       draw(plot_scene(scene, result), directory, "scene", written);
   }
   work.bytes_written += written.n_bytes;
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
-  result.work = work;
+  const std::string summary = summary_of(parameters, solution);
   if (parameters.wants(OutputFile::summary) && is_first)
-    written.write(directory / "summary.json", summary_json(scene, parameters, result));
+    written.write(directory / "summary.json", summary);
   if (failure)
     std::rethrow_exception(failure);
   return written;
+}
+
+void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
+                   const Solution& solution) {
+  const std::string summary = summary_of(parameters, solution);
+  const std::filesystem::path file = directory / "summary.json";
+  if (parameters.wants(OutputFile::summary) && process_number(solution.space->communicator()) == 0)
+    write_file(file, summary);
 }
 
 } // namespace rollwave

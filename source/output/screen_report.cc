@@ -163,12 +163,14 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   if (contact.patches.empty())
     out << "  no contact\n";
   out << "  contact force        F = " << contact.force << force << '\n'
-      << "  vertical load            " << contact.vertical_load << force << '\n'
-      << "  work-conjugate load  G = " << contact.work_conjugate_load << force << '\n'
-      << "  peak pressure            " << contact.peak_pressure << unit(Quantity::pressure) << '\n'
-      << "  stiffness  -d(load)/dc   " << contact.stiffness.vertical << unit(Quantity::stiffness)
-      << " (vertical)\n"
-      << "  energy          J(u_h) = " << result.energy.value << unit(Quantity::energy)
+      << "  vertical load            " << contact.vertical_load << force << '\n';
+  if (!std::isnan(contact.work_conjugate_load))
+    out << "  work-conjugate load  G = " << contact.work_conjugate_load << force << '\n';
+  out << "  peak pressure            " << contact.peak_pressure << unit(Quantity::pressure) << '\n';
+  if (!std::isnan(contact.stiffness.vertical))
+    out << "  stiffness  -d(load)/dc   " << rounded(contact.stiffness.vertical, 4)
+        << unit(Quantity::stiffness) << " (vertical)\n";
+  out << "  energy          J(u_h) = " << result.energy.value << unit(Quantity::energy)
       << ", a(u_h, u_h) = " << result.energy.norm_squared << unit(Quantity::energy) << '\n';
   if (result.certified)
     report_certificate(out, result, units);

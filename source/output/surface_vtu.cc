@@ -69,7 +69,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
   const double length = scene.units.length, b = scene.outer_radius * length;
   std::vector<double> radius, angle, displacement, pressure, gap;
   const auto add = [&](const SurfacePoint& point) {
-    const double z = point.angle, road = std::sin(z) < 0 ? scene.road(z) * length : b;
+    const double z = point.angle, road = scene.has_road_at(z) ? scene.road(z) * length : b;
     radius.push_back(b + point.displacement);
     angle.push_back(z);
     displacement.push_back(point.displacement);

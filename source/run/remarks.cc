@@ -13,12 +13,11 @@ namespace rollwave {
 
 namespace {
 
-/// How deep the surface lies in the road outside of the zone, where the road does not hold it. Only
-/// its lower half meets the road.
+/// How deep the surface lies in the road outside of the zone, where the road does not hold it.
 double depth_outside(const Scene& scene, const Result& result) {
   double depth = 0;
   for (const SurfacePoint& point : result.surface)
-    if (!scene.is_in_zone(point.angle) && std::sin(point.angle) < 0)
+    if (!scene.is_in_zone(point.angle) && scene.has_road_at(point.angle))
       depth = std::max(depth, point.displacement - scene.road(point.angle));
   return depth;
 }
@@ -72,7 +71,10 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   std::vector<std::string> remarks;
   const auto& ends = result.patch.ends;
   const unsigned int active_nodes = result.patch.active_nodes;
-  if (ends && (ends->first == scene.zone_begin || ends->second == scene.zone_end))
+  const double tangent = scene.road_at(scene.road_distance).tangent_angle();
+  const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
+  if (ends && !scene.is_whole_circle() && !zone_ends_at_tangent &&
+      (ends->first == scene.zone_begin || ends->second == scene.zone_end))
     remarks.push_back(
         options.road.contact_zone
             ? "the zone cuts the contact short: the pressure is unbounded at its end, "
@@ -89,7 +91,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
     if (options.mesh.wanted_relative_error == 0)
       remark += "; refine, or set Mesh/Wanted relative error";
     if (std::isinf(result.certified->force_data))
-      remark = "there is no bound: f^2 grows without end towards one place, as at a pole";
+      remark = "there is no bound: the force is singular (not square-integrable)";
     remarks.push_back(remark);
   }
   // Two cells with all of their nodes have one more.

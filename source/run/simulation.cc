@@ -1,11 +1,11 @@
 #include "rollwave/run/simulation.h"
 
 #include "rollwave/adapt/marking.h"
-#include "rollwave/adapt/residual_indicator.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/load_bounds.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -45,70 +45,38 @@ Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNod
   return pressure;
 }
 
-/// Why something was not solved. For want of memory there is other advice than the exception's.
-std::string reason_of(const NotSolved& failure) {
-  const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure);
-  return shortage ? shortage->reason : failure.what();
-}
-
-/// What is left out for a failure, and the key that leaves it out from the start.
-std::string left_out_text(const std::string& what, const NotSolved& failure,
-                          const std::string& key) {
-  return what + ": " + reason_of(failure) + "; use fewer unknowns, or set " + key + " to false";
-}
-
-/// Certifies, unless that fails, such as for want of memory: then that is a shortfall.
+/// Certifies the solution on a mesh, unless that fails.
 void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
   const Scene& scene = on_mesh.scene;
-  try {
-    solution.certificate =
-        certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-                solution.system.force.get(),
-                solution.system.dual_of(scene, *solution.space, result.work), result.work);
-  } catch (const NotSolved& failure) {
-    result.shortfalls.push_back(
-        left_out_text("the error could not be certified", failure, "Certificate/Error bound"));
+  const bool is_certified = attempt(
+      [&] {
+        solution.certificate =
+            certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
+                    solution.system.force.get(),
+                    solution.system.dual_of(scene, *solution.space, result.work), result.work);
+      },
+      "the error could not be certified",
+      "use fewer unknowns, or set Certificate/Error bound to false", solution.space->communicator(),
+      result);
+  if (!is_certified)
     return;
-  }
   result.certified = solution.certificate->error;
   result.cycles.back().certified = solution.certificate->error.relative;
 }
 
-/// Whether a mesh of an adaptive run but the last one is certified: the first one, those whose
-/// bound may be small enough, if it has about kept its ratio to the indicator since it was computed
-/// last, and those with three times the unknowns of that mesh, or a third of its indicator.
-bool is_certificate_due(const RunOptions& options, const std::vector<CycleFigures>& cycles) {
-  constexpr double margin = 1.3; // a mesh too many costs more than a certificate
-  const double wanted = options.mesh.wanted_relative_error;
-  const CycleFigures& mesh = cycles.back();
-  const auto last = std::find_if(cycles.rbegin(), cycles.rend(),
-                                 [](const CycleFigures& cycle) { return cycle.certified; });
-  return wanted > 0 && (last == cycles.rend() || mesh.dofs >= 3. * last->dofs ||
-                        3 * mesh.indicated <= last->indicated ||
-                        *last->certified * mesh.indicated <= margin * wanted * last->indicated);
-}
-
-/// eta_K of each active cell.
-std::vector<double> indicate(Indicator indicator, const MeshSolution& on_mesh, Solution& solution) {
+/// eta_K of each active cell: its share of the bound or, where there is none, Kelly's indicator.
+std::vector<double> indicate(const RunOptions& options, const MeshSolution& on_mesh,
+                             Solution& solution) {
   const Work::Phase phase(solution.result.work, "indicator");
-  std::vector<double> of_cells =
-      indicator == Indicator::kelly
-          ? kelly_indicator(*solution.space, on_mesh.displacement)
-          : residual_indicator(*solution.space, on_mesh.scene, on_mesh.problem, on_mesh.contact,
-                               on_mesh.displacement);
+  const bool has_bound = options.certificate.error_bound;
+  std::vector<double> of_cells = has_bound && options.mesh.indicator == Indicator::certificate
+                                     ? solution.certificate->cell_bounds
+                                     : kelly_indicator(*solution.space, on_mesh.displacement);
   const double squared = std::inner_product(of_cells.begin(), of_cells.end(), of_cells.begin(), 0.);
   solution.result.cycles.back().indicated =
       std::sqrt(Utilities::MPI::sum(squared, solution.space->communicator()));
   return of_cells;
-}
-
-/// The indicator or, where that is larger, the cell's part of the bound: G is rough along whole
-/// lines z = const inside of a force that is rough, which residuals do not see.
-std::vector<double> larger_of(std::vector<double> indicators, const Certificate& certificate) {
-  for (unsigned int i = 0; i < indicators.size(); ++i)
-    indicators[i] = std::max(indicators[i], certificate.cell_bounds[i]);
-  return indicators;
 }
 
 double most_cells(const RunOptions& options) {
@@ -152,41 +120,31 @@ void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Soluti
 void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution) {
   Result& result = solution.result;
   const auto& certificate = options.certificate;
-  if (certificate.error_bound && !solution.certificate)
-    certify_solution(on_mesh, solution);
-  if (options.mesh.wanted_relative_error > 0 && !is_reached(options, result))
+  if (options.mesh.wanted_relative_error > 0 && result.certified && !is_reached(options, result))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*solution.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
   if (certificate.load_bounds && result.certified && !result.is_interrupted)
-    try {
-      enclose_load(options, on_mesh, solution);
-    } catch (const NotSolved& failure) {
-      result.shortfalls.push_back(
-          left_out_text("the load could not be enclosed", failure, "Certificate/Load bounds"));
-    }
+    attempt([&] { enclose_load(options, on_mesh, solution); }, "the load could not be enclosed",
+            "use fewer unknowns, or set Certificate/Load bounds to false",
+            solution.space->communicator(), result);
   for (const std::string& remark : remarks_on(solution.scene, options, *solution.space, result))
     result.remarks.push_back(remark);
   solution.displacement = std::move(on_mesh.displacement);
 }
 
-/// Indicates, certifies where that is due, and refines. False, and the mesh is the last one, when
-/// what is wanted is reached, or cannot be, or the user has interrupted it.
+/// Indicates and refines. False, and the mesh is the last one, when what is wanted is reached, or
+/// cannot be, or the user has interrupted it.
 bool refine_further(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
   Result& result = solution.result;
-  if (result.is_interrupted || result.cycles.size() > most_cycles(options.mesh) ||
+  const bool is_certified = solution.certificate || !options.certificate.error_bound;
+  if (result.is_interrupted || result.cycles.size() > most_cycles(options.mesh) || !is_certified ||
+      is_reached(options, result) ||
       !has_room_to_refine(*solution.triangulation, options.mesh.marking, most_cells(options)))
     return false;
-  std::vector<double> indicators = indicate(options.mesh.indicator, on_mesh, solution);
-  if (is_certificate_due(options, result.cycles)) {
-    certify_solution(on_mesh, solution);
-    if (solution.certificate && options.mesh.indicator != Indicator::kelly)
-      indicators = larger_of(std::move(indicators), *solution.certificate);
-  }
-  if (is_reached(options, result))
-    return false;
+  const std::vector<double> indicators = indicate(options, on_mesh, solution);
   result.is_interrupted = is_interrupted(solution.space->communicator());
   if (result.is_interrupted)
     result.shortfalls.push_back("interrupted after " + std::to_string(result.cycles.size()) +
@@ -204,7 +162,7 @@ void prepare_space(const RunOptions& options, Solution& solution) {
         std::make_unique<RingSpace>(*solution.triangulation, solution.scene, options.mesh.degree);
 }
 
-/// Solves, indicates and refines until what @p options want is reached, or cannot be. @p solution
+/// Solves, certifies and refines until what @p options want is reached, or cannot be. @p solution
 /// has a mesh, and perhaps the contact of a coarser one. @param is_kept whether what belongs to the
 /// last mesh will be used again
 void solve_and_refine(const RunOptions& options, bool is_kept, Solution& solution) {
@@ -218,6 +176,8 @@ void solve_and_refine(const RunOptions& options, bool is_kept, Solution& solutio
     measure(*solution.space, on_mesh, result);
     if (!is_kept && !options.certificate.load_bounds)
       solution.system.stiffness.solver.reset(); // the certificate needs its memory
+    if (options.certificate.error_bound)
+      certify_solution(on_mesh, solution);
     if (refine_further(options, on_mesh, solution))
       continue;
     finish(options, std::move(on_mesh), solution);

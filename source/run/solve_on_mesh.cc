@@ -139,6 +139,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
     if (scene.load) {
       RoadPosition road = find_distance(*solver, space, scene, options.contact.most_steps, start);
       solution.scene = with_distance(scene, road.distance);
+      solution.shortfall = missing_load_text(scene, road.load);
       pressure = std::move(road.pressure);
     }
     solution.problem = make_contact_problem(space, solution.scene);
@@ -148,7 +149,11 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
     solution.contact.remark =
         remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
   solution.displacement = solver->displacement_field(solution.contact.state);
-  solution.stiffness = contact_stiffness(*solver, solution.problem, solution.contact);
+  {
+    const Work::Phase phase(work, "contact");
+    solution.stiffness = contact_stiffness(*solver, space, solution.scene, solution.problem,
+                                           solution.contact, options.contact.most_steps);
+  }
   const Work::Phase phase(work, "measurement");
   const double round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
   FieldVector stiffness_times_u = solver->apply(solution.displacement);
@@ -163,7 +168,8 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
 
 void measure(const RingSpace& space, const MeshSolution& solution, Result& result) {
   const Work::Phase phase(result.work, "measurement");
-  const auto& [scene, problem, contact, stiffness, displacement, energy, residuals] = solution;
+  const auto& [scene, problem, contact, stiffness, shortfall, displacement, energy, residuals] =
+      solution;
   result.mesh = describe_mesh(space);
   result.road_distance = scene.road_distance;
   result.patch = measure_contact(scene, space.contact_nodes(), problem, contact);
@@ -175,9 +181,23 @@ void measure(const RingSpace& space, const MeshSolution& solution, Result& resul
   result.history = contact.history;
   result.rho = contact.rho;
   result.remarks.clear();
+  if (reaches_tangent(problem, contact.active)) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    result.patch.work_conjugate_load = unknown;
+    result.patch.stiffness = {unknown, unknown, unknown};
+    result.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
+                             "work-conjugate load and the stiffness are not resolved: they are "
+                             "left out");
+    if (scene.load && scene.load->kind == LoadKind::work_conjugate)
+      result.shortfalls.push_back("the work-conjugate load that was given is not resolved, since "
+                                  "contact reaches the tangent of the drum; raise Mesh/Angular "
+                                  "cells, or set Road/Load kind = vertical");
+  }
   if (!contact.remark.empty())
     result.remarks.push_back(contact.remark);
   result.shortfalls.clear();
+  if (shortfall)
+    result.shortfalls.push_back(*shortfall);
   result.is_interrupted = contact.shortfall.has_value();
   if (contact.shortfall)
     result.shortfalls.push_back(*contact.shortfall);

@@ -60,9 +60,21 @@ double Road::crossing_angle(double free) const {
   if (depth <= 0)
     return 0;
   if (curvature > 0 && rho >= std::sqrt(c * c + 2 * c / curvature))
-    return std::asin(1 / m);
+    return tangent_angle();
   const double square = depth * (2 - curvature * depth) / (4 * rho * m);
   return 2 * std::asin(std::sqrt(std::min(square, 1.)));
+}
+
+double Road::tangent_angle() const {
+  return curvature > 0 ? std::asin(1 / (1 + curvature * distance)) : numbers::PI;
+}
+
+double Road::arc_length(double x) const {
+  // Sine and cosine of the angle at the centre of the circle, the sine over kappa.
+  const double c = distance, m = 1 + curvature * c, s = root(x);
+  const double sine = c * (2 + curvature * c) * std::sin(x) / (m * std::cos(x) + s),
+               cosine = s * std::cos(x) + m * std::sin(x) * std::sin(x);
+  return curvature == 0 ? sine : std::atan2(curvature * sine, cosine) / curvature;
 }
 
 } // namespace rollwave

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -71,20 +72,31 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
   if (road.curvature < 0 && -1 / road.curvature <= std::max(b, c))
     refuse("Curvature", text("the road is the inside of a drum of the radius ", -1 / road.curvature,
                              ", which must be larger than the cylinder and the distance"));
+  // The axle sees a drum of the radius 1/kappa under an angle of about 1 / (kappa b). Angles of a
+  // mesh are known to angular_round_off, which must stay below a thousandth of that.
+  const double most_curvature = 1e-3 / Scene::angular_round_off / b;
+  if (road.curvature > most_curvature)
+    refuse("Curvature", text("the drum is too thin for the accuracy of angles; it must be at most ",
+                             most_curvature));
 }
 
-/// Half the angle in which the surface can touch the road. Contact pushes inwards, so that u <=
-/// u_f, the displacement without contact: where the force is uniform, contact ends before phi =
-/// u_f. Two cells are added, since contact that ends within a cell is felt next to it. A nonuniform
-/// force has phi < b as its limit, and no zone goes beyond that.
+/// Half the angle in which the surface can touch the road; pi stands for the whole circle. Contact
+/// pushes inwards, so that u <= u_f, the displacement without contact: where the force is uniform,
+/// contact ends before phi = u_f. Two cells are added, since contact that ends within a cell is
+/// felt next to it. A nonuniform force has phi < b as its limit, and no zone goes beyond that.
 double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
+  double limit = b, margin = 0; // of phi and of the angle
+  if (!scene.has_nonuniform_force()) {
+    limit = std::min(b, scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b));
+    margin = 4 * numbers::PI / angular_cells;
+  }
+  // With a given load, the nearest road is touched the most, except inside of a drum that the
+  // surface can fill: there the top touches as soon as both have the same axis.
+  if (scene.load && scene.road_curvature < 0 && b + limit >= -1 / scene.road_curvature)
+    return numbers::PI;
   const Road road = scene.road_at(scene.load ? scene.least_distance : scene.road_distance);
-  const double widest = std::min(road.crossing_angle(b), 3.);
-  if (scene.has_nonuniform_force())
-    return widest;
-  const double free = scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b);
-  return std::min(widest, road.crossing_angle(free) + 4 * numbers::PI / angular_cells);
+  return std::min({numbers::PI, road.crossing_angle(b), road.crossing_angle(limit) + margin});
 }
 
 } // namespace
@@ -116,7 +128,10 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.units = {unit, material};
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
-  scene.angular_velocity = cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity);
+  // Not beyond 1/b by what check_cylinder() forgives, so that alpha(b) >= 0.
+  scene.angular_velocity =
+      std::min(cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity),
+               1 / scene.outer_radius);
   scene.force_text = text(cylinder.radial_force, " over ", material.shear_modulus);
   const double force_density = scene.units.of(Quantity::force_density);
   const std::optional<double> constant = constant_force(cylinder.radial_force);

@@ -5,9 +5,39 @@
 #include "rollwave/solver/direct_solver.h"
 #include "rollwave/solver/iterative_solver.h"
 
+#include <deal.II/base/exceptions.h>
+
+#include <new>
+
 namespace rollwave {
 
 using namespace dealii;
+
+namespace {
+
+/// @throws NotEnoughMemory, whatever has noticed it
+std::unique_ptr<ContactLinearSolver> make_direct(const RingSpace& space, const Scene& scene,
+                                                 const std::optional<FieldVector>& load,
+                                                 Work& work) {
+  try {
+    auto solver = std::make_unique<DirectSolver>(space);
+    solver->set_problem(scene, load, work);
+    return solver;
+  } catch (const std::bad_alloc&) {
+  } catch (const ExcOutOfMemory&) { // by the vectors of deal.II
+  }
+  throw NotEnoughMemory("the direct kind needs more memory than there is");
+}
+
+/// True if the dense factorisations for m contact nodes, m^3 operations each, take longer than
+/// conjugate gradients on all unknowns.
+bool is_dense_part_slow(const RingSpace& space) {
+  constexpr double most_operations = 2e6; // for each unknown, measured
+  const double m = space.candidate_nodes().size();
+  return m * m * m > most_operations * space.n_unknowns();
+}
+
+} // namespace
 
 SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                            const std::optional<FieldVector>& load, Work& work) {
@@ -16,15 +46,19 @@ SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene&
     AssertThrow(kind != SolverKind::direct, ExcInternalError());
     kind = SolverKind::iterative;
   }
+  if (kind == SolverKind::automatic && is_dense_part_slow(space)) {
+    kind = SolverKind::iterative;
+    choice.remark = "solved iteratively: the dense factorisations of " +
+                    std::to_string(space.candidate_nodes().size()) +
+                    " contact nodes would take longer";
+  }
   if (kind != SolverKind::iterative)
     try {
-      choice.solver = std::make_unique<DirectSolver>(space);
-      choice.solver->set_problem(scene, load, work);
+      choice.solver = make_direct(space, scene, load, work);
       return choice;
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
         throw;
-      choice.solver.reset(); // the other one needs its memory
       choice.remark = "solved iteratively: " + shortage.reason;
     }
   choice.kind = SolverKind::iterative;

@@ -91,9 +91,10 @@ void DirectSolver::divide_by_schur(Vector<double>& force) const {
 }
 
 /// Sets u_i of the candidates that are not pinned and N_i of those that are.
+/// @param contact_load g
 /// @return whether this needed a factorisation, as with both kinds of them
-bool DirectSolver::solve_dense(const std::vector<bool>& pinned, Vector<double>& displacement,
-                               Vector<double>& force) const {
+bool DirectSolver::solve_dense(const std::vector<bool>& pinned, const Vector<double>& contact_load,
+                               Vector<double>& displacement, Vector<double>& force) const {
   std::vector<unsigned int> free;
   for (unsigned int i = 0; i < pinned.size(); ++i)
     if (!pinned[i]) {
@@ -134,10 +135,19 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
   Vector<double> displacement = on_candidates(state.displacement),
                  force = on_candidates(state.force);
-  work->dense_factorisations += solve_dense(on_candidates(pinned), displacement, force);
+  work->dense_factorisations +=
+      solve_dense(on_candidates(pinned), contact_load, displacement, force);
   state.displacement = on_contact(displacement);
   state.force = on_contact(force);
   return 0;
+}
+
+ContactState DirectSolver::derivative(const std::vector<bool>& pinned,
+                                      const Vector<double>& displacement, double /*accuracy*/) {
+  const Vector<double> no_load(schur.m());
+  Vector<double> moved = on_candidates(displacement), force(schur.m());
+  work->dense_factorisations += solve_dense(on_candidates(pinned), no_load, moved, force);
+  return {on_contact(moved), on_contact(force)};
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
@@ -146,8 +156,8 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.
   Vector<double> displacement = on_candidates(state.displacement), force(schur.m());
-  solve_dense(on_candidates(std::vector<bool>(state.displacement.size(), true)), displacement,
-              force);
+  solve_dense(on_candidates(std::vector<bool>(state.displacement.size(), true)), contact_load,
+              displacement, force);
   // With this right-hand side the last rows of L^T x = rhs return the displacement given.
   Vector<double> trailing(schur.m());
   factor.Tvmult(trailing, displacement);

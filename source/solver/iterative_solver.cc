@@ -23,45 +23,50 @@ void IterativeSolver::set_problem(const Scene& scene, const std::optional<FieldV
   angular_velocity = scene.angular_velocity;
 }
 
-Vector<double> IterativeSolver::reactions(const FieldVector& u) const {
+Vector<double> IterativeSolver::reactions(const FieldVector* f, const FieldVector& u) const {
   FieldVector force = space.make_field();
   system.matrix().vmult(force, u);
   force *= -1;
-  if (*load)
-    force += **load;
+  if (f)
+    force += *f;
   return space.contact_values(force);
 }
 
 double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                               double accuracy) {
+  return solve(pinned, *load ? &**load : nullptr, field, state, accuracy);
+}
+
+double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector* f, FieldVector& u,
+                              ContactState& state, double accuracy) {
   const auto& nodes = space.contact_nodes();
   AssertDimension(pinned.size(), nodes.size());
   IndexSet pinned_dofs(space.dof_handler().n_dofs());
-  FieldVector rhs = *load ? **load : space.make_field();
+  FieldVector rhs = f ? *f : space.make_field();
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     const auto dof = nodes[i].dof;
     if (pinned[i])
       pinned_dofs.add_index(dof);
     if (rhs.in_local_range(dof)) {
       if (pinned[i])
-        field(dof) = state.displacement(i);
+        u(dof) = state.displacement(i);
       else
         rhs(dof) -= state.force(i);
     }
   }
   system.pin(pinned_dofs);
 
-  const double load_norm = *load ? (*load)->l2_norm() : 0.;
-  const auto scale = [&](const FieldVector& u) {
-    Vector<double> force = reactions(u);
+  const double load_norm = f ? f->l2_norm() : 0.;
+  const auto scale = [&](const FieldVector& approximation) {
+    Vector<double> force = reactions(f, approximation);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (!pinned[i])
         force(i) = state.force(i);
     return std::max<double>(load_norm, force.l2_norm());
   };
-  const double residual = system.improve(field, rhs, scale, accuracy, *work);
+  const double residual = system.improve(u, rhs, scale, accuracy, *work);
 
-  const Vector<double> force = reactions(field), displacement = space.contact_values(field);
+  const Vector<double> force = reactions(f, u), displacement = space.contact_values(u);
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (pinned[i])
       state.force(i) = force(i);
@@ -82,7 +87,20 @@ Vector<double> IterativeSolver::response(const Vector<double>& force, double acc
   return space.contact_values(u);
 }
 
-FieldVector IterativeSolver::displacement_field(const ContactState& /*state*/) {
+ContactState IterativeSolver::derivative(const std::vector<bool>& pinned,
+                                         const Vector<double>& displacement, double accuracy) {
+  FieldVector u = space.make_field();
+  ContactState change = {displacement, Vector<double>(displacement.size())};
+  solve(pinned, nullptr, u, change, accuracy);
+  return change;
+}
+
+FieldVector IterativeSolver::displacement_field(const ContactState& state) {
+  if (space.contact_values(field) != state.displacement) { // it is not the state of the last solve
+    constexpr double accuracy = 1e-11;
+    ContactState same = state;
+    solve(std::vector<bool>(state.displacement.size(), true), same, accuracy);
+  }
   FieldVector u = field;
   space.constraints().distribute(u);
   u.update_ghost_values();

@@ -59,7 +59,10 @@ void SparseCholesky::analyse(const LowerTriplets& triplets, Work& work) {
   if (!is_first) // later factors take the place of the one before
     return;
   ++work.orderings;
-  require_memory(sizeof(double) * (cholesky->n_factor_entries() + 1. * last.size() * last.size()),
+  constexpr double dense_matrices = 3; // of the last nodes: L_cc, S, and a block of S factorised
+  const double n_entries =
+      cholesky->n_factor_entries() + dense_matrices * last.size() * last.size();
+  require_memory(sizeof(double) * n_entries,
                  last.empty() ? "the factor of the dual problem"
                               : "the factor of the stiffness matrix with " +
                                     std::to_string(last.size()) + " contact nodes");

@@ -9,16 +9,10 @@
 #include <iomanip>
 #include <map>
 #include <ostream>
-#include <set>
-#include <sstream>
 
 namespace rollwave {
 
 namespace {
-
-const std::set<std::string> mesh_sizes = {"Mesh/Radial cells",       "Mesh/Angular cells",
-                                          "Mesh/Global refinements", "Mesh/Adaptive cycles",
-                                          "Mesh/Most unknowns",      "Mesh/Wanted relative error"};
 
 /// Errors by their names in study.csv, with their titles.
 const std::vector<std::pair<std::string, std::string>> errors = {
@@ -115,8 +109,9 @@ std::vector<Family> find_families(const Study& study) {
   std::map<std::string, unsigned int> number_of;
   for (unsigned int i = 0; i < study.plans.size(); ++i) {
     const RunPlan& plan = study.plans[i];
-    const std::string name =
-        label(plan, [](const Setting& key) { return mesh_sizes.count(key.path()) == 0; });
+    const std::string name = label(plan, [](const Setting& setting) {
+      return (key_of(setting).affects & Affects::resolution) == 0;
+    });
     const auto [entry, is_first] = number_of.emplace(name, families.size());
     if (is_first)
       families.push_back({name, {}, false});

@@ -3,7 +3,6 @@
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/parameters/prm_reader.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
@@ -39,30 +38,25 @@ std::vector<double> numbers_of(const Study& study, unsigned int key) {
 
 /// True for the keys of the scene, false for those of the method.
 bool is_of_scene(const Setting& setting) {
-  return setting.section == "Cylinder" || setting.section == "Material" ||
-         setting.section == "Road";
+  return key_of(setting).affects & Affects::scene;
 }
 
-/// The scene, degree and method that all runs have in common.
+/// The values that all runs share: the keys that titles name, and others of the scene that are not
+/// at their defaults. Named scenes share the method only.
 std::string title_of(const Study& study) {
   const RunPlan& plan = study.plans.front();
-  std::set<std::string> told_keys = {"Contact/Method"};
-  if (plan.scene.empty())
-    told_keys.insert({"Cylinder/Inner radius", "Cylinder/Outer radius", "Cylinder/Radial force",
-                      "Cylinder/Angular velocity", "Road/Distance", "Road/Load", "Mesh/Degree"});
-  if (plan.parameters.road.curvature != 0)
-    told_keys.insert("Road/Curvature");
-  for (const Setting& setting : plan.varied)
-    told_keys.erase(setting.path());
-  std::stringstream all;
-  print_parameters(all, plan.parameters.settings);
+  const std::vector<Setting>& settings = plan.parameters.settings;
   std::string title;
-  for (const Setting& setting : read_settings(all, "parameters"))
-    if (told_keys.count(setting.path()) > 0 && setting.value != "none")
-      title +=
-          (title.empty() ? "" : ", ") + (setting.value == "uzawa"  ? "Uzawa's method"
-                                         : setting.key == "Method" ? setting.value
-                                                                   : told(setting, study.units()));
+  for (const Key& key : all_keys()) {
+    const Setting setting{key.section, key.name, value_of(key, settings), ""};
+    const bool is_shared =
+        !last_of(plan.varied, key.path()) &&
+        (plan.scene.empty() || !(key.affects & (Affects::scene | Affects::mesh)));
+    const bool is_named = (key.affects & Affects::titles) ||
+                          ((key.affects & Affects::scene) && setting.value != key.default_value);
+    if (is_shared && is_named && setting.value != "none")
+      title += (title.empty() ? "" : ", ") + told(setting, study.units());
+  }
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 

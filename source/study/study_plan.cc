@@ -1,11 +1,13 @@
 #include "rollwave/study/study_plan.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
 
+#include <algorithm>
 #include <cctype>
-#include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace rollwave {
@@ -36,24 +38,26 @@ void check(const Parameters& parameters, unsigned int n_processes) {
   }
 }
 
-/// How a key is told of.
-struct Words {
-  std::string words, symbol;
-  Quantity quantity = Quantity::number;
-};
+/// The settings that the runs of a study share.
+std::vector<Setting> common_settings(const Parameters& study) {
+  std::vector<Setting> common;
+  for (const Setting& setting : study.settings)
+    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
+        setting.path() != "Output/Files")
+      common.push_back(setting);
+  return common;
+}
 
-const std::map<std::string, Words> words_of_keys = {
-    {"Cylinder/Inner radius", {"radius of the hub", "a", Quantity::length}},
-    {"Cylinder/Outer radius", {"radius of the cylinder", "b", Quantity::length}},
-    {"Cylinder/Angular velocity", {"angular velocity", "ω", Quantity::angular_velocity}},
-    {"Cylinder/Radial force", {"radial force", "f"}},
-    {"Material/Shear modulus", {"shear modulus", "μ", Quantity::pressure}},
-    {"Material/Width", {"width", "w", Quantity::length}},
-    {"Road/Distance", {"road distance", "c", Quantity::length}},
-    {"Road/Load", {"load", "L", Quantity::force}},
-    {"Road/Curvature", {"curvature of the road", "κ"}},
-    {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
-    {"Contact/Rho", {"step length", "ρ", Quantity::force_density}}};
+/// Refuses a varied key that belongs to Uzawa's method where no run uses that.
+void check_method(const std::vector<RunPlan>& plans) {
+  const bool has_uzawa = std::any_of(plans.begin(), plans.end(), [](const RunPlan& plan) {
+    return plan.parameters.contact.method == ContactMethod::uzawa;
+  });
+  for (const Setting& setting : plans.front().varied)
+    if (!has_uzawa && (key_of(setting).affects & Affects::uzawa))
+      throw BadValue("Study", "Vary",
+                     setting.path() + " has no effect without Contact/Method = uzawa");
+}
 
 } // namespace
 
@@ -61,11 +65,7 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
   std::vector<NamedScene> scenes = parameters.study.scenes;
   if (scenes.empty())
     scenes.push_back({"", {}});
-  std::vector<Setting> common;
-  for (const Setting& setting : parameters.settings)
-    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
-        setting.path() != "Output/Files")
-      common.push_back(setting);
+  const std::vector<Setting> common = common_settings(parameters);
   std::vector<RunPlan> plans;
   for (const auto& scene : scenes)
     for (const auto& varied : combinations(parameters.study.vary)) {
@@ -75,31 +75,28 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
       plans.push_back({scene.name, varied, {}, read_parameters(settings)});
       check(plans.back().parameters, n_processes);
     }
+  check_method(plans);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())
-    throw BadInput(refusal(parameters.settings, "Study", "Published steps",
-                           "there are " + std::to_string(published.size()) + " entries for " +
-                               std::to_string(plans.size()) + " runs"));
+    throw BadValue("Study", "Published steps",
+                   "there are " + std::to_string(published.size()) + " entries for " +
+                       std::to_string(plans.size()) + " runs");
   for (unsigned int i = 0; i < published.size(); ++i)
     plans[i].published_steps = published[i];
   return plans;
 }
 
 std::string words(const Setting& setting, const Units& units) {
-  const auto known = words_of_keys.find(setting.path());
-  if (known != words_of_keys.end())
-    return known->second.words + ' ' + known->second.symbol +
-           units.in_brackets(known->second.quantity);
-  std::string text = setting.key;
+  const Key& key = key_of(setting);
+  std::string text = key.words.empty() ? key.name : key.words;
   text[0] = std::tolower(text[0]);
-  return text;
+  return text + (key.symbol.empty() ? "" : ' ' + key.symbol) + units.in_brackets(key.quantity);
 }
 
 std::string told(const Setting& setting, const Units& units) {
-  const auto known = words_of_keys.find(setting.path());
-  if (known == words_of_keys.end())
-    return words(setting, units) + ' ' + setting.value;
-  return known->second.symbol + " = " + setting.value + units.after(known->second.quantity);
+  const Key& key = key_of(setting);
+  return (key.symbol.empty() ? words(setting, {}) + ' ' : key.symbol + " = ") + setting.value +
+         units.after(key.quantity);
 }
 
 std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told) {

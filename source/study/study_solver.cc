@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <limits>
 #include <new>
-#include <set>
 
 namespace rollwave {
 
@@ -24,12 +23,9 @@ namespace {
 
 /// The settings of a run on which its mesh and matrices depend.
 std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
-  const std::set<std::string> paths = {"Cylinder/Inner radius", "Cylinder/Outer radius",
-                                       "Road/Contact zone"};
   std::map<std::string, std::string> key;
   for (const Setting& setting : plan.parameters.settings)
-    if (setting.section == "Mesh" || setting.section == "Solver" ||
-        paths.count(setting.path()) > 0)
+    if (key_of(setting).affects & Affects::mesh)
       key[setting.path()] = setting.value;
   return key;
 }
@@ -37,7 +33,7 @@ std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
 } // namespace
 
 StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
-                       const std::filesystem::path& directory, MPI_Comm communicator)
+                         const std::filesystem::path& directory, MPI_Comm communicator)
     : plans(plans), study(study), directory(directory), communicator(communicator) {
   if (study.study.true_errors) {
     warm_up();

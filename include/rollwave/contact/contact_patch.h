@@ -16,7 +16,7 @@ struct ContactPatch {
   double force;    ///< b int lambda dz over the stretch
   double centroid; ///< int lambda z dz / int lambda dz, an angle
   double peak_pressure;
-  double length = 0; ///< of the road under it, as a straight line
+  double length = 0; ///< of the road under it
 };
 
 /// What the road feels of the contact. Forces are per unit length of the axle and unit shear
@@ -44,13 +44,13 @@ struct ContactResultants {
  * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) is linear in
  * z, and its root is the end: a straight line through the second and the fourth node outside (the
  * first carries the error of the end cell), or the first two when there are no more, or else the
- * same with the pressure inside. Where the zone cuts the contact short, the end is the zone's.
+ * same with the pressure inside. Where the zone cuts the contact short, the end is the zone's; no
+ * end lies beyond the zone or the tangent of a drum.
  * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
  * used when the nodes are further apart than that.
  *
- * In a thin ring, of the depth D = int alpha^(1/2) dr, the surface is an elastic foundation at
- * distances greater than D: gap and pressure are linear, s = 0, and vanish (2 ln 2 / pi) D outside
- * of the end. That is used when the nodes are further apart than D / 2.
+ * Two patches are apart where a node between them is not in contact and its gap is more than
+ * ContactSolution::gap_accuracy and round-off.
  */
 ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
                                   const ContactProblem& problem, const ContactSolution& solution);

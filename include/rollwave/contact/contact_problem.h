@@ -97,6 +97,7 @@ struct ContactSolution {
   ContactState state;
   std::vector<bool> active;
   std::vector<ContactStep> history;
+  double gap_accuracy = 0; ///< how far nodes in contact may be from the road, a length
   double rho = 0;          ///< Uzawa's step length; 0 for the active set method
   std::string remark = ""; ///< anything unusual the user should know
 

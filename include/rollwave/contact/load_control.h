@@ -3,38 +3,53 @@
 
 #include "rollwave/contact/contact_problem.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace rollwave {
 
 /**
- * -d/dc of the three loads while the nodes in contact stay the same, forces over lengths. Pinned
- * nodes follow the road, du_i = (dphi/dc)(z_i) dc, which takes one solution with these nodes
- * pinned. For the work-conjugate load it is J''(c) of the discrete problem,
+ * The stiffness -d/dc of the three loads, forces over lengths; 0 without contact. At a fixed set of
+ * nodes in contact it would jump from node to node, by several per cent on meshes that are not
+ * fine. It is the difference quotient over the distances between which contact grows by about two
+ * cells at each end, which averages over the nodes of the cells:
  *
- *     J'' = g' S g - sum_i N_i d^2 phi/dc^2(z_i),   g_i = dphi/dc(z_i).
+ *     (load(c - d) - load(c + d)) / (2 d).
  *
- * S is the Schur complement of the nodes in contact. @p solver is at the scene of @p problem.
- * @throws NotSolved as ContactLinearSolver::solve().
+ * @p solution is that of @p problem, which belongs to @p scene.
+ * @throws NotSolved as active_set()
  */
-Loads contact_stiffness(ContactLinearSolver& solver, const ContactProblem& problem,
-                        const ContactSolution& solution);
+Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
+                        const ContactProblem& problem, const ContactSolution& solution,
+                        unsigned int most_steps);
 
-/// A distance and the nodal pressures there.
+/// True if contact on a drum ends next to its tangent, with no free node before it. dphi/dc grows
+/// there like d^(-1/2) with the distance d from the tangent, so that the nodes resolve neither the
+/// work-conjugate load nor the stiffness.
+bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active);
+
+/// A distance with the load and the nodal pressures there.
 struct RoadPosition {
   double distance;
+  double load; ///< of the kind of Scene::load
   dealii::Vector<double> pressure;
 };
 
 /**
- * The road's distance at which the load is that of Scene::load, by Newton's method with
- * contact_stiffness() within a bracket, to 1e-10 of the load: the active set method finds the
- * contact for each distance, beginning with that of the distance before. The first is that of @p
- * scene, with the pressures @p start.
+ * The road's distance at which the load is that of Scene::load, by Newton's method within a
+ * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow, see
+ * missing_load_text(). The active set method finds the contact for each distance, beginning with
+ * that of the distance before. The first is that of @p scene, with the pressures @p start.
  *
- * @throws BadValue where even a road at Scene::least_distance is not pressed as much,
- *         NotSolved as active_set(), or when it does not settle.
+ * @throws BadValue where a road at Scene::least_distance carries less, or a drum around the
+ *         cylinder carries more at every distance; NotSolved as active_set(), or after 100 trials.
  */
 RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
                            unsigned int most_steps, const dealii::Vector<double>& start);
+
+/// How far @p load is from that of Scene::load, where that is more than 1e-9 of it.
+std::optional<std::string> missing_load_text(const Scene& scene, double load);
 
 } // namespace rollwave
 

@@ -44,7 +44,7 @@ struct CertifiedError {
  *
  * v is the discrete displacement but for the cells at the surface, where the correction c(z) of
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
- * a StressFunction with angular_enrichment(), psi, in terms of which the first integral is
+ * a StressFunction psi, in terms of which the first integral is
  *
  *     int [ r alpha (psi_s + v_z)^2 + r ((G_h - psi_z)/r - v_r)^2 ] dr dz.
  *

@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
 #define ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
 
-#include "rollwave/error_bound/force_scan.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
 
@@ -15,23 +14,25 @@ namespace rollwave {
 struct Scene;
 
 /**
- * All that load and error bound know of a force f, its integral from the surface inwards,
+ * The integral of a force f from the surface inwards, from which load and error bound are made,
  *
  *     G(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int G w_r dr dz   for w = 0 on r = a,
  *
- * in place of which they take a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For
- * an expression G_h is, on each cell, the polynomial that equals G at the points of rule() along z
- * and of RadialShapes along r; G there is a sum of Gauss' rules over the radii of the
- * whole mesh, on each line z = const of its own.
+ * in the form of a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For an expression
+ * G_h is, on each cell, the polynomial that equals G at the points of rule() along z and of
+ * RadialShapes along r; G there is a sum of Gauss' rules between the radii from the surface
+ * inwards.
  *
  * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
  *
  *     delta = (int (G - G_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
  *
- * delta is measured by a ForceScan with 32 points to a cell: for each angular interval of cells
- * one line along r and, for each of its cells, one along z. Their differences from G_h are charged
- * twice, since a jump may lie anywhere between two points. A strip that is narrower than the
- * points are apart may be missed, and so may a spot smaller than a cell.
+ * delta is estimated on each cell from the highest coefficients of G_h along r, from a rule along r
+ * with four times as many points on one line, and from G at the ends of the cell on 32 lines. The
+ * last two are charged twice: a jump may lie anywhere between two points, and so much covers the
+ * rest of an integral of |r - r_0|^(-s) for s < 1/2, where f is square-integrable. The estimate
+ * assumes that f is square-integrable and that these points see it: a strip that is narrower than
+ * they are apart may be missed, and so may a spot smaller than a cell.
  */
 class ForceIntegral {
 public:
@@ -40,10 +41,10 @@ public:
   ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
 
   /// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
-  /// degree + 2 points or, for an expression, one more, G_h being of a higher degree.
+  /// degree + 1 points or, for an expression, two more, G_h being of a higher degree.
   const dealii::QGauss<1>& rule() const { return angular; }
 
-  /// Whether G is a function of r alone, which does no work on periodic potentials.
+  /// True if G is a function of r alone, which does no work on periodic potentials.
   bool is_uniform() const { return uniform; }
 
   /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
@@ -61,21 +62,21 @@ public:
   void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, TestSpace kind,
                 const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
 
-  /// delta, of the cells of all processes. 0 for a number; infinite where the squares of f weigh
-  /// the more, the closer its largest value is looked at, as at a pole.
+  /// delta, of the cells of all processes; 0 for a number.
   double error() const { return delta; }
 
-  /// The share of an active cell in delta^2; finite.
+  /// The share of an active cell in delta^2.
   double cell_error_squared(unsigned int cell) const { return uniform ? 0 : errors_squared[cell]; }
 
-  /// The largest distance of the points of the scan, a length; 0 for a number.
+  /// The largest distance of the points that see f, a length; 0 for a number.
   double scan_width() const { return width; }
 
 private:
   void take_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
   void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
-  void conclude(const RingSpace& space, const ForceScan& scan, double sum,
-                dealii::Point<2> largest_cell);
+  void take_sector(const Scene& scene, const std::vector<double>& mesh_radii,
+                   const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& cells,
+                   RadialShapesOfMesh& shapes);
   unsigned int n_radii(unsigned int cell) const {
     return values[cell].size() / (uniform ? 1 : angular.size());
   }

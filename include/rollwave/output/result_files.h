@@ -12,6 +12,11 @@ namespace rollwave {
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution);
 
+/// Writes summary.json, if @p parameters ask for it, again where a result has been completed.
+/// @throws NotWritten.
+void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
+                   const Solution& solution);
+
 } // namespace rollwave
 
 #endif

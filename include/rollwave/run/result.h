@@ -36,7 +36,7 @@ struct CycleFigures {
   unsigned int cells;
   unsigned int dofs;
   unsigned int contact_steps;
-  double indicated;                ///< sqrt(sum eta_K^2) of the indicator; 0 on the last mesh
+  double indicated;                ///< sqrt(sum eta_K^2); 0 on the last mesh
   std::optional<double> certified; ///< CertifiedError::relative where it was computed
 };
 

@@ -30,8 +30,8 @@ void check_simulation(const RunOptions& options, unsigned int n_processes);
 
 /**
  * Solves @p scene on the mesh and by the methods of @p options; with adaptive cycles: solve,
- * certify where needed, indicate, mark, refine, beginning each contact iteration with the pressure
- * of the mesh before. What was wanted and could not be reached is told in Result::shortfalls.
+ * certify, mark, refine, beginning each contact iteration with the pressure of the mesh before.
+ * What was wanted and could not be reached is told in Result::shortfalls.
  *
  * When the user interrupts it, the mesh at hand is the last one: its solution, certified where that
  * was asked for, is the best there is, and Result::is_interrupted is set if anything is missing.

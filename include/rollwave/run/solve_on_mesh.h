@@ -33,6 +33,7 @@ struct MeshSolution {
   ContactProblem problem;
   ContactSolution contact;
   Loads stiffness;
+  std::optional<std::string> shortfall; ///< of a load that is given
   FieldVector displacement; ///< u_h
   Energy energy;            ///< of u_h
   Residuals residuals;

@@ -37,6 +37,13 @@ struct Road {
   /// does not reach so far; 0 where the surface is above the road.
   double crossing_angle(double free) const;
 
+  /// The angle up to which the axle sees the road: asin(1 / m) of a drum, pi of other roads.
+  double tangent_angle() const;
+
+  /// The length of the road between its lowest point and the angle x, up to the tangent:
+  /// (asin(m sin x) - x) / kappa, the arc of the circle, which is c tan x for kappa = 0.
+  double arc_length(double x) const;
+
 private:
   double root(double x) const; ///< S, 0 beyond the tangent
 };

@@ -4,6 +4,9 @@
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -74,7 +77,7 @@ struct Scene {
   std::function<double(double z)> road_slope;
 
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
-  double zone_end;   ///< z1 in (z0, z0 + 2 pi)
+  double zone_end;   ///< z1 in (z0, z0 + 2 pi]; the zone may be the whole circle
 
   /// Angles that are closer are the same: those of a mesh carry round-off of a few units in the
   /// last place.
@@ -82,6 +85,11 @@ struct Scene {
 
   bool is_in_zone(double z) const {
     return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
+  }
+
+  /// True if the zone is the whole circle, whose ends are one.
+  bool is_whole_circle() const {
+    return zone_end - zone_begin >= 2 * dealii::numbers::PI - angular_round_off;
   }
 
   std::string force_text = {}; ///< the user's expression and modulus, which make f
@@ -105,6 +113,10 @@ struct Scene {
   std::optional<Load> load = {};
   double least_distance = 0;   ///< the road can be no nearer than this
   bool has_given_zone = false; ///< whether the user has given the zone
+
+  /// True if the axle sees the road in the direction of @p z, as it does all around inside of a
+  /// drum, and below itself otherwise.
+  bool has_road_at(double z) const { return road_curvature < 0 || std::sin(z) < 0; }
 
   /// The road at the distance @p c.
   Road road_at(double c) const { return {outer_radius, c, road_curvature}; }
@@ -130,8 +142,8 @@ Scene with_distance(Scene scene, double c);
  *
  * @param angular_cells those of the first mesh: an automatic zone is two cells wider than contact
  * @throws BadValue unless 0 < a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an automatic
- * zone, -1/kappa > b and c for kappa < 0, pi < z0 < z1 < 2 pi and the force can be parsed and is
- * finite.
+ * zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the force can be
+ * parsed and is finite.
  */
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                  const MaterialOptions& material, unsigned int angular_cells);

@@ -33,9 +33,10 @@ struct SolverChoice {
   SolverKind kind = SolverKind::direct; ///< never automatic
 };
 
-/// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or,
-/// where memory is too short for its factor and on several processes, the iterative one. @p load
-/// and @p work are as for ContactLinearSolver::set_problem().
+/// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or, on
+/// several processes and where its dense matrices of the contact nodes take too long or its factor
+/// too much memory, the iterative one. @p load and @p work are as for
+/// ContactLinearSolver::set_problem().
 /// @throws NotSolved as the kinds do.
 SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
                            const std::optional<FieldVector>& load, Work& work);

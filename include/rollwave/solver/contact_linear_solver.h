@@ -53,7 +53,13 @@ public:
   /// @p accuracy is as for solve().
   virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
 
-  /// The field u of a state that solve() has left, constraints included.
+  /// The derivative of solve() by the displacement given: the change of the state when the pinned
+  /// nodes move by @p displacement, the forces on the others and the load staying as they are.
+  /// @p accuracy is as for solve().
+  virtual ContactState derivative(const std::vector<bool>& pinned,
+                                  const dealii::Vector<double>& displacement, double accuracy) = 0;
+
+  /// The field u of a state that solve() has left since set_problem(), constraints included.
   virtual FieldVector displacement_field(const ContactState& state) = 0;
 
   /// K u for a field that obeys the constraints; zero where a constraint holds.

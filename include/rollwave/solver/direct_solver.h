@@ -28,13 +28,15 @@ public:
   void set_problem(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
+  ContactState derivative(const std::vector<bool>& pinned,
+                          const dealii::Vector<double>& displacement, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 
 private:
   void factorise(const Scene& scene);
-  bool solve_dense(const std::vector<bool>& pinned, dealii::Vector<double>& displacement,
-                   dealii::Vector<double>& force) const;
+  bool solve_dense(const std::vector<bool>& pinned, const dealii::Vector<double>& contact_load,
+                   dealii::Vector<double>& displacement, dealii::Vector<double>& force) const;
   void divide_by_schur(dealii::Vector<double>& force) const;
 
   /// From values on contact nodes to values on candidates, zero elsewhere, and back.

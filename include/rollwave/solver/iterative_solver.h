@@ -28,12 +28,18 @@ public:
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
+  ContactState derivative(const std::vector<bool>& pinned,
+                          const dealii::Vector<double>& displacement, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
   FieldVector apply(const FieldVector& field) const override;
 
 private:
+  /// Solves from @p u on, for the load @p f (nullptr for none).
+  double solve(const std::vector<bool>& pinned, const FieldVector* f, FieldVector& u,
+               ContactState& state, double accuracy);
+
   /// f_i - (K u)_i at the contact nodes.
-  dealii::Vector<double> reactions(const FieldVector& u) const;
+  dealii::Vector<double> reactions(const FieldVector* f, const FieldVector& u) const;
 
   const RingSpace& space;
   const std::optional<FieldVector>* load = nullptr;

@@ -1,0 +1,57 @@
+// A part that a result can do without may fail in any way: it is a shortfall, and reported once.
+#include "rollwave/run/attempt.h"
+
+#include "rollwave/base/errors.h"
+#include "rollwave/run/simulation.h"
+#include "test_scenes.h"
+
+#include <deal.II/lac/exceptions.h>
+
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+
+using namespace rollwave;
+using dealii::LACExceptions::ExcSingular;
+
+namespace {
+
+TEST(Attempt, MakesEveryFailureAShortfall) {
+  const auto shortfalls_of = [](const std::function<void()>& compute) {
+    Result result = {};
+    const bool is_done = attempt(compute, "a part is missing", "change a", MPI_COMM_SELF, result);
+    EXPECT_EQ(is_done, result.shortfalls.empty());
+    for (const std::string& text : result.shortfalls)
+      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    return result.shortfalls.size();
+  };
+  EXPECT_EQ(shortfalls_of([] {}), 0u);
+  EXPECT_EQ(shortfalls_of([] { throw NotSolved("no convergence"); }), 1u);
+  EXPECT_EQ(shortfalls_of([] { throw NotEnoughMemory(); }), 1u);
+  EXPECT_EQ(shortfalls_of([] { throw std::bad_alloc(); }), 1u);
+  EXPECT_EQ(shortfalls_of([] { throw std::runtime_error("any"); }), 1u);
+  EXPECT_EQ(shortfalls_of([] { AssertThrow(false, ExcSingular()); }), 1u);
+}
+
+/// Figure 4 without a certificate, since its road has no slope.
+Result without_certificate(const std::vector<std::string>& settings) {
+  const Parameters parameters = with(parameters_of({"Mesh/Angular cells=400"}), settings);
+  Scene scene = make_scene(parameters);
+  scene.road_slope = [](double) -> double { throw ExcSingular(); };
+  return simulate(scene, parameters).result;
+}
+
+TEST(Attempt, FailingCertificateLeavesTheSolution) {
+  for (const std::string setting : {"Certificate/Error bound=true", "Certificate/Load bounds=true",
+                                    "Mesh/Wanted relative error=1e-3"}) {
+    const Result result =
+        without_certificate({setting, "Mesh/Indicator=kelly", "Mesh/Most unknowns=30000"});
+    EXPECT_EQ(result.shortfalls.size(), 1u) << setting;
+    EXPECT_FALSE(result.certified);
+    EXPECT_NEAR(result.patch.force, 0.33249897643, 1e-4);
+    EXPECT_NEAR(result.energy.value, 0.02906970811, 1e-5);
+  }
+}
+
+} // namespace

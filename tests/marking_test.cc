@@ -1,0 +1,103 @@
+// Which cells are cut: the fewest with a share of the squared error, with mirror images and columns
+// of thin rings, and not more than fit.
+#include "rollwave/adapt/marking.h"
+
+#include "rollwave/mesh/ring_mesh.h"
+#include "test_scenes.h"
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/grid/tria.h>
+
+#include <gtest/gtest.h>
+
+using namespace rollwave;
+
+namespace {
+
+/// A uniform mesh of a ring.
+struct Ring {
+  explicit Ring(const std::vector<std::string>& settings)
+      : parameters(parameters_of(settings)), scene(make_scene(parameters)),
+        mesh(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)) {}
+
+  /// How many cells are cut in a refinement by bulk marking.
+  unsigned int cut(const std::vector<double>& indicators, double fraction,
+                   double most_cells = 1e6) {
+    const unsigned int before = mesh->n_active_cells();
+    refine_mesh(*mesh, scene, indicators, Marking::bulk, fraction, most_cells);
+    return (mesh->n_active_cells() - before) / 3;
+  }
+
+  const Parameters parameters;
+  const Scene scene;
+  const std::unique_ptr<dealii::Triangulation<2>> mesh;
+};
+
+const std::vector<std::string> row_of_eight = {"Mesh/Radial cells=1", "Mesh/Angular cells=8"};
+
+// The squares are 64, 49, 36, 25, 16, 9, 4, 1, in all 204.
+const std::vector<double> falling = {8, 7, 6, 5, 4, 3, 2, 1};
+
+TEST(Marking, TakesTheFewestCellsThatHoldTheShare) {
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 64 / 204. - 1e-6), 1u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 64 / 204. + 1e-6), 2u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 113 / 204. - 1e-6), 2u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 113 / 204. + 1e-6), 3u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 1), 8u);
+  EXPECT_EQ(Ring(row_of_eight).cut(std::vector<double>(8), 0.6), 0u);
+}
+
+TEST(Marking, DoesNotDependOnTheUnitOfTheIndicators) {
+  for (const double unit : {1e-300, 1e-170, 1e170, 1e300}) {
+    std::vector<double> indicators = falling;
+    for (double& indicator : indicators)
+      indicator *= unit;
+    EXPECT_EQ(Ring(row_of_eight).cut(indicators, 0.6), 3u) << unit;
+  }
+}
+
+TEST(Marking, TakesMirrorImagesTogether) {
+  EXPECT_EQ(Ring(row_of_eight).cut({3, 2, 1, 1, 1, 1, 2 + 1e-12, 3 - 1e-12}, 0.1), 2u);
+  EXPECT_EQ(Ring(row_of_eight).cut(std::vector<double>(8, 0.1), 0.01), 8u);
+}
+
+TEST(Marking, TakesNoMoreCellsThanFit) {
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 1, 8 + 3 * 3), 3u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 1, 8 + 3 * 3 - 1), 2u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 0.6, 8 + 2), 0u);
+  Ring ring(row_of_eight);
+  EXPECT_FALSE(refine_mesh(*ring.mesh, ring.scene, falling, Marking::all, 0.6, 31));
+  EXPECT_TRUE(refine_mesh(*ring.mesh, ring.scene, falling, Marking::all, 0.6, 32));
+}
+
+// The ring of the radii 0.999 and 1 is 3e-5 deep at the critical speed, and 0.45 with 0.5 and 1.
+TEST(Marking, TakesWholeColumnsOfRingsThinnerThanACellIsLong) {
+  const std::vector<std::string> common = {"Cylinder/Angular velocity=1", "Mesh/Radial cells=5",
+                                           "Mesh/Angular cells=20"};
+  std::vector<double> indicators(100);
+  indicators[42] = 1;
+  std::vector<std::string> thin = common, thick = common;
+  thin.insert(thin.end(), {"Cylinder/Inner radius=0.999", "Road/Distance=0.9995"});
+  thick.insert(thick.end(), {"Cylinder/Inner radius=0.5", "Road/Distance=0.8"});
+  EXPECT_EQ(Ring(thin).cut(indicators, 0.6), 5u);
+  EXPECT_EQ(Ring(thick).cut(indicators, 0.6), 1u);
+}
+
+// CellId and p4est have no room for more; the cells around are cut no further either.
+TEST(Marking, EndsAtTheFinestLevel) {
+  const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
+  const Scene scene = make_scene(parameters);
+  const auto mesh = make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF);
+  bool is_cut = true;
+  for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
+    std::vector<double> indicators;
+    for (const auto& cell : mesh->active_cell_iterators())
+      indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
+    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1e6);
+  }
+  EXPECT_FALSE(is_cut);
+  EXPECT_EQ(mesh->n_levels(), 30);
+  EXPECT_TRUE(is_at_finest_level(*mesh));
+}
+
+} // namespace

@@ -1,0 +1,71 @@
+// Every number of a result is the same by both contact methods, by both kinds of linear solver and
+// on many processes.
+#include "quantities.h"
+
+#include "rollwave/output/summary_json.h"
+#include "rollwave/scene/units.h"
+#include "test_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+using namespace rollwave;
+
+namespace {
+
+struct NamedScene {
+  std::string name;
+  std::vector<std::string> settings;
+};
+
+std::vector<NamedScene> scenes() {
+  std::vector<NamedScene> scenes = {
+      {"drum", {"Road/Curvature=1"}},
+      {"inside of a drum", {"Road/Curvature=-0.5"}},
+      {"two patches",
+       {"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)", "Mesh/Angular cells=120"}},
+      {"cut zone", {"Road/Contact zone=4.5, 4.9", "Mesh/Degree=1"}},
+      {"vertical load", {"Road/Load=0.25", "Mesh/Degree=3"}},
+      {"work-conjugate load",
+       {"Road/Load=0.25", "Road/Load kind=work-conjugate", "Certificate/Load bounds=true"}},
+      {"bounds of the load", {"Certificate/Load bounds=true"}},
+      {"units",
+       {"Material/Density=1.1e-9", "Material/Width=200", "Cylinder/Inner radius=17.5",
+        "Cylinder/Outer radius=35", "Cylinder/Angular velocity=86", "Road/Load=800"}},
+      {"adaptive mesh", {"Mesh/Adaptive cycles=2"}},
+      {"no contact", {"Road/Distance=1.2", "Cylinder/Radial force=0.1"}}};
+  for (const PaperScene& paper : paper_scenes())
+    scenes.push_back({"figure " + std::to_string(paper.figure),
+                      {assignment("Cylinder/Angular velocity", paper.angular_velocity),
+                       assignment("Cylinder/Radial force", paper.force_density),
+                       assignment("Road/Distance", paper.distance)}});
+  return scenes;
+}
+
+nlohmann::json solve(const Parameters& parameters) {
+  const Scene scene = make_scene(parameters);
+  const Result result = in_users_units(simulate(scene, parameters).result, scene.units);
+  return quantities_of(nlohmann::json::parse(summary_json(scene, parameters, result)));
+}
+
+TEST(Quantities, AreThoseOfEveryMethod) {
+  for (const auto& [name, settings] : scenes()) {
+    const Parameters parameters =
+        with(parameters_of({"Mesh/Radial cells=3", "Mesh/Angular cells=60"}), settings);
+    const nlohmann::json expected = solve(parameters);
+    {
+      SCOPED_TRACE(name + ", iterative");
+      expect_same_quantities(solve(with(parameters, {"Solver/Kind=iterative"})), expected,
+                             tolerance_of_solvers);
+    }
+    SCOPED_TRACE(name + ", Uzawa");
+    expect_same_quantities(solve(with(parameters, {"Contact/Method=uzawa"})), expected,
+                           tolerance_of_uzawa);
+  }
+}
+
+} // namespace
