@@ -34,7 +34,6 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
   problem.weight.reinit(nodes.size());
   problem.shape = scene.road_at(scene.road_distance);
   problem.unit = 1 / scene.units.of(Quantity::force_density);
-  problem.communicator = space.communicator();
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     problem.road(i) = scene.road(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;

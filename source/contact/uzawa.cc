@@ -1,7 +1,6 @@
 #include "rollwave/contact/uzawa.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/active_set.h"
 
 #include <algorithm>
@@ -14,15 +13,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-std::string interruption_text(const ContactOptions& options,
-                              const std::vector<ContactStep>& history) {
-  std::ostringstream text;
-  text << "interrupted after " << history.size() << (history.size() == 1 ? " step" : " steps")
-       << " of Uzawa's method: the residual is " << history.back().residual << ", wanted "
-       << options.tolerance;
-  return text.str();
-}
 
 [[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
                           const ContactOptions& options, double rho, std::size_t steps,
@@ -147,10 +137,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
     // A scene without contact is solved when the first projection leaves p at zero.
-    const bool is_converged = measured <= options.tolerance * size;
-    if (!is_converged && is_interrupted(problem.communicator))
-      solution.shortfall = interruption_text(options, solution.history);
-    if (is_converged || solution.shortfall) {
+    if (measured <= options.tolerance * size) {
       solution.gap_accuracy = std::max(options.tolerance * size, measured);
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);

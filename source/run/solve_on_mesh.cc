@@ -181,6 +181,7 @@ void measure(const RingSpace& space, const MeshSolution& solution, Result& resul
   result.history = contact.history;
   result.rho = contact.rho;
   result.remarks.clear();
+  result.shortfalls.clear();
   if (reaches_tangent(problem, contact.active)) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     result.patch.work_conjugate_load = unknown;
@@ -195,12 +196,8 @@ void measure(const RingSpace& space, const MeshSolution& solution, Result& resul
   }
   if (!contact.remark.empty())
     result.remarks.push_back(contact.remark);
-  result.shortfalls.clear();
   if (shortfall)
     result.shortfalls.push_back(*shortfall);
-  result.is_interrupted = contact.shortfall.has_value();
-  if (contact.shortfall)
-    result.shortfalls.push_back(*contact.shortfall);
   result.cycles.push_back({result.mesh.cells,
                            result.mesh.dofs,
                            static_cast<unsigned int>(result.history.size()),

@@ -123,32 +123,11 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-/// About as many runs as can be told apart: of the last key some values, of the others at most
-/// three.
-std::vector<unsigned int> runs_to_show(const Study& study) {
-  constexpr unsigned int most = 12, most_rows = 3;
-  const unsigned int n_runs = study.plans.size();
-  if (n_runs <= most)
-    return evenly(n_runs, n_runs);
-  unsigned int n_columns = 1;
-  const auto value = [&](unsigned int run) {
-    return study.plans[run].varied.empty() ? "" : study.plans[run].varied.back().value;
-  };
-  while (n_columns < n_runs && value(n_columns) != value(0))
-    ++n_columns;
-  const auto rows = evenly(n_runs / n_columns, most_rows);
-  std::vector<unsigned int> runs;
-  for (const unsigned int row : rows)
-    for (const unsigned int column : evenly(n_columns, most / rows.size()))
-      runs.push_back(row * n_columns + column);
-  return runs;
-}
-
 Panel profiles(const Study& study) {
   Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
               "contact pressure" + study.units().in_brackets(Quantity::pressure),
               {}};
-  for (const unsigned int run : runs_to_show(study))
+  for (const unsigned int run : evenly(study.runs.size(), most_curves))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)

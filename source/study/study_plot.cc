@@ -11,8 +11,6 @@ namespace rollwave {
 
 namespace {
 
-constexpr unsigned int most_curves = 12;
-
 /// Colours of curves; with dashes and points they can be told apart in print as well.
 const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                           "#000000", "#e69f00", "#56b4e9", "#8b4513",

@@ -12,7 +12,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <limits>
 #include <new>
 
 namespace rollwave {
@@ -21,13 +20,13 @@ using namespace dealii;
 
 namespace {
 
-/// The settings of a run on which its mesh and matrices depend.
-std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
-  std::map<std::string, std::string> key;
+/// The settings of a run that affect its mesh and matrices, or its scene.
+std::map<std::string, std::string> settings_of(const RunPlan& plan, unsigned int affected) {
+  std::map<std::string, std::string> settings;
   for (const Setting& setting : plan.parameters.settings)
-    if (key_of(setting).affects & Affects::mesh)
-      key[setting.path()] = setting.value;
-  return key;
+    if (key_of(setting).affects & affected)
+      settings[setting.path()] = setting.value;
+  return settings;
 }
 
 } // namespace
@@ -39,11 +38,11 @@ StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& st
     warm_up();
     return;
   }
-  std::map<MeshKey, unsigned int> n_runs;
+  std::map<Settings, unsigned int> n_runs;
   for (const RunPlan& plan : plans)
     if (most_cycles(plan.parameters.mesh) == 0) {
       const Scene scene = make_scene(plan.parameters);
-      const MeshKey key = mesh_key(plan);
+      const Settings key = settings_of(plan, Affects::mesh);
       auto& zone = widest_zone.try_emplace(key, scene.zone_begin, scene.zone_end).first->second;
       zone = {std::min(zone.first, scene.zone_begin), std::max(zone.second, scene.zone_end)};
       ++n_runs[key];
@@ -98,7 +97,7 @@ void StudySolver::warm_up() {
 
 Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   Scene scene = make_scene(plan.parameters);
-  const MeshKey key = mesh_key(plan);
+  const Settings key = settings_of(plan, Affects::mesh);
   Solution previous;
   if (last_mesh == key) {
     previous = std::move(*solution);
@@ -123,7 +122,7 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(solution->scene)) {
+    if (const auto& exact = exact_solution(plan, solution->scene)) {
       result.errors = measure_true_errors(*solution->space, solution->displacement, result,
                                           solution->certificate, *exact);
       run.reference = "the semi-analytic solution";
@@ -143,17 +142,11 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
   run.remarks = result.remarks;
 }
 
-const std::optional<ExactSolution>& StudySolver::exact_solution(const Scene& scene) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<double> key = {scene.inner_radius, scene.outer_radius, scene.angular_velocity,
-                                   scene.road_distance, scene.road_curvature,
-                                   // An automatic zone leaves the contact free, however wide it is.
-                                   scene.has_given_zone ? scene.zone_begin : infinity,
-                                   scene.has_given_zone ? scene.zone_end : infinity,
-                                   scene.has_nonuniform_force() ? infinity
-                                                                : scene.uniform_force.value_or(0)};
-  const auto [known, is_new] = exact_solutions.try_emplace(key);
-  if (is_new)
+const std::optional<ExactSolution>& StudySolver::exact_solution(const RunPlan& plan,
+                                                                const Scene& scene) {
+  const auto [known, is_first] =
+      exact_solutions.try_emplace({settings_of(plan, Affects::scene), scene.road_distance});
+  if (is_first)
     known->second = find_exact_solution(scene);
   return known->second;
 }

@@ -45,7 +45,6 @@ struct ContactProblem {
   std::vector<double> x;                 ///< the nodes' angles from the lowest point
   Road shape;                            ///< of the road that phi_i belongs to
   double unit = 1;                       ///< of displacement over pressure, in the user's
-  MPI_Comm communicator = MPI_COMM_SELF; ///< of the processes that solve it together
 
   unsigned int size() const { return road.size(); }
 
@@ -100,9 +99,6 @@ struct ContactSolution {
   double gap_accuracy = 0; ///< how far nodes in contact may be from the road, a length
   double rho = 0;          ///< Uzawa's step length; 0 for the active set method
   std::string remark = ""; ///< anything unusual the user should know
-
-  /// Where the user has interrupted the iteration: after what, and what is missing.
-  std::optional<std::string> shortfall;
 };
 
 /// Solves by the method of @p options, beginning with the contact pressures @p start (none when

@@ -19,9 +19,6 @@ namespace rollwave {
  * those that end up in contact. A step length that is too large shows in a residual that stops
  * falling.
  *
- * The user may interrupt it after any step: p and u_h(p) satisfy the equation, and what they lack
- * of the contact conditions is told in ContactSolution::shortfall.
- *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.
  */

@@ -26,6 +26,9 @@ struct Panel {
   std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
 };
 
+/// The most curves that can be distinguished in one panel.
+constexpr unsigned int most_curves = 12;
+
 /// @p most of the numbers below @p n, evenly chosen, or all.
 std::vector<unsigned int> evenly(unsigned int n, unsigned int most);
 

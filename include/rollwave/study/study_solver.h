@@ -30,22 +30,22 @@ public:
   StudyRun solve(unsigned int number);
 
 private:
-  /// Settings that runs on one mesh have in common.
-  using MeshKey = std::map<std::string, std::string>;
+  using Settings = std::map<std::string, std::string>;
 
   void warm_up();
   void solve(const RunPlan& plan, StudyRun& run);
   Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
-  const std::optional<ExactSolution>& exact_solution(const Scene& scene);
+  const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
   const std::filesystem::path directory;
   const MPI_Comm communicator;
-  std::map<MeshKey, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
-  std::optional<MeshKey> last_mesh; ///< that of solution, where it is shared
+  std::map<Settings, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
+  std::optional<Settings> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;
-  std::map<std::vector<double>, std::optional<ExactSolution>> exact_solutions; ///< by their scenes
+  /// By the settings of the scene and the distance, which a mesh finds where a load is given.
+  std::map<std::pair<Settings, double>, std::optional<ExactSolution>> exact_solutions;
 };
 
 } // namespace rollwave
