@@ -81,7 +81,8 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
       const char *const radial = cells.first, *const angular = cells.second;
       SCOPED_TRACE(testing::Message()
                    << "degree " << degree << " on " << radial << " x " << angular);
-      const auto expect_charged = [&](const char* f, const auto& exact) {
+      const auto expect_charged = [&, radial = radial, angular = angular](const char* f,
+                                                                          const auto& exact) {
         OnMesh force(f, degree, radial, angular);
         const double missed = force.distance_to(exact);
         EXPECT_LE(missed, force.integral.error()) << f;

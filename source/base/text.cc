@@ -7,15 +7,13 @@
 #include <charconv>
 #include <cmath>
 #include <locale>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 namespace rollwave {
 
-std::string printable(const std::string& text) {
-  constexpr std::size_t longest = 150;
+std::string printable(const std::string& text, std::size_t longest) {
   const char* const digits = "0123456789ABCDEF";
   std::string shown;
   bool is_plain = true;
@@ -40,10 +38,6 @@ std::string trimmed(const std::string& text) {
   return boost::algorithm::trim_copy(text, std::locale::classic());
 }
 
-bool is_equal_but_for_case(const std::string& one, const std::string& other) {
-  return boost::algorithm::iequals(one, other, std::locale::classic());
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   if (trimmed(text).empty())
@@ -54,46 +48,14 @@ std::vector<std::string> split(const std::string& text, char separator) {
   return parts;
 }
 
-namespace {
-
-/// What people write for a number, and what is to be written instead; empty for other texts.
-std::string why_no_number(const std::string& text) {
-  constexpr std::size_t longest = 60; // the matcher is recursive
-  if (text.size() > longest)
-    return {};
-  const std::string number = "([-+]?[0-9]+\\.?[0-9]*(?:[eE][-+]?[0-9]+)?)";
-  std::smatch parts;
-  if (std::regex_match(text, parts, std::regex("([-+]?[0-9]*),([0-9]+(?:[eE][-+]?[0-9]+)?)")))
-    return "the decimal mark is a point: " + parts.str(1) + '.' + parts.str(2);
-  if (std::regex_match(text, std::regex(number + "(\\s*,\\s*" + number + ")+")))
-    return "one number, please; in Study/Vary a \"|\" separates values, as in 1 | 2";
-  if (std::regex_match(text, parts, std::regex(number + "\\s*(%|[A-Za-z]+)"))) {
-    if (parts[2] != "%")
-      return "numbers have no unit: " + parts.str(1);
-    std::ostringstream share;
-    share << to_number(parts[1]) / 100;
-    return "a per cent is 0.01: " + share.str();
-  }
-  return {};
-}
-
-} // namespace
-
 double to_number(const std::string& text) {
   const bool has_plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* const end = text.data() + text.size();
   double value = 0;
   const auto [rest, error] = std::from_chars(text.data() + has_plus, end, value);
   if (error != std::errc() || rest != end || !(value == 0 || std::isnormal(value)))
-    throw std::invalid_argument(why_no_number(text));
-  return value;
-}
-
-unsigned int to_count(const std::string& text, unsigned int least, unsigned int most) {
-  const double number = to_number(text);
-  if (number != std::floor(number) || number < least || number > most)
     throw std::invalid_argument("");
-  return static_cast<unsigned int>(number);
+  return value;
 }
 
 std::string rounded(double number, int digits) {

@@ -147,9 +147,9 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << "a = " << scene.inner_radius / scene.outer_radius
          << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
-         << "\nroad_side = \"" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
-         << "\"\nheight = " << 2 * zoom * ratio << "\nset multiplot title \""
-         << title_of(scene, result) << "\"\n"
+         << "\nroad_side = '" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
+         << "'\nheight = " << 2 * zoom * ratio << "\nset multiplot title '"
+         << title_of(scene, result) << "'\n"
          << pictures;
   for (const ContactPatch& patch : result.patch.patches)
     for (const double z : {patch.begin, patch.end})

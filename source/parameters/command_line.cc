@@ -1,8 +1,8 @@
 #include "rollwave/parameters/command_line.h"
 
 #include "rollwave/base/errors.h"
-
-#include <algorithm>
+#include "rollwave/base/text.h"
+#include "rollwave/parameters/parameters.h"
 
 namespace rollwave {
 
@@ -71,8 +71,7 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
   std::vector<Setting> settings;
   if (!line.file.empty()) {
     settings = read_settings(line.file, communicator);
-    if (std::none_of(settings.begin(), settings.end(),
-                     [](const Setting& setting) { return setting.path() == "Output/Directory"; }))
+    if (!last_of(settings, "Output/Directory"))
       settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
                           "default from the name of " + printable(line.file.string())});
   }

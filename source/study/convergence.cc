@@ -6,15 +6,10 @@
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <set>
 
 namespace rollwave {
 
 namespace {
-
-const std::set<std::string> mesh_sizes = {"Mesh/Radial cells",       "Mesh/Angular cells",
-                                          "Mesh/Global refinements", "Mesh/Adaptive cycles",
-                                          "Mesh/Most unknowns",      "Mesh/Wanted relative error"};
 
 /// log(1/h) in a family of this kind, up to a constant, from a mesh on; nullopt unless the cells
 /// are cut alike.
@@ -80,12 +75,15 @@ std::vector<Family> find_families(const Study& study) {
   for (unsigned int i = 0; i < study.plans.size(); ++i) {
     const RunPlan& plan = study.plans[i];
     auto common = plan.identity;
-    for (const std::string& key : mesh_sizes)
-      common.erase(key);
+    for (const Key& key : all_keys())
+      if (key.affects & Affects::resolution)
+        common.erase(key.path());
     common["scene"] = plan.scene;
     const auto [entry, is_new] = number_of.emplace(common, families.size());
     if (is_new) {
-      const auto is_common = [](const Setting& key) { return mesh_sizes.count(key.path()) == 0; };
+      const auto is_common = [](const Setting& setting) {
+        return (key_of(setting).affects & Affects::resolution) == 0;
+      };
       families.push_back({label(plan, is_common), {}, false, true});
     }
     Family& family = families[entry->second];

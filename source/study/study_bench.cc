@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <limits>
 #include <new>
-#include <set>
 
 namespace rollwave {
 
@@ -25,14 +24,12 @@ namespace {
 
 /// What a run has in common with others on its mesh.
 std::map<std::string, std::string> mesh_key(const RunPlan& plan) {
-  const std::set<std::string> paths = {"Cylinder/Inner radius", "Cylinder/Outer radius",
-                                       "Road/Contact zone"};
-  std::map<std::string, std::string> key;
-  for (const auto& entry : plan.identity)
-    if (entry.first.rfind("Mesh/", 0) == 0 || entry.first.rfind("Solver/", 0) == 0 ||
-        paths.count(entry.first) > 0)
-      key.insert(entry);
-  return key;
+  std::map<std::string, std::string> values;
+  for (const Key& key : all_keys())
+    if (const auto value = plan.identity.find(key.path());
+        value != plan.identity.end() && (key.affects & Affects::mesh))
+      values.insert(*value);
+  return values;
 }
 
 } // namespace

@@ -2,8 +2,9 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/atomic_file.h"
+#include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/parameters/prm_reader.h"
+#include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
@@ -45,32 +46,26 @@ Units units_of(const Study& study) {
   return {1, study.plans.front().parameters.material};
 }
 
-/// Whether a key tells what is solved, and not how.
 bool is_of_scene(const Setting& setting) {
-  return setting.section == "Cylinder" || setting.section == "Material" ||
-         setting.section == "Road";
+  return key_of(setting).affects & Affects::scene;
 }
 
-/// What all runs have in common: scene, degree and method.
+/// The values that all runs share: the keys that titles name, and others of the scene that are not
+/// at their defaults. Named scenes share the method only.
 std::string title_of(const Study& study) {
   const RunPlan& plan = study.plans.front();
-  std::set<std::string> told_keys = {"Contact/Method"};
-  if (plan.scene.empty())
-    told_keys.insert({"Cylinder/Inner radius", "Cylinder/Outer radius", "Cylinder/Radial force",
-                      "Cylinder/Angular velocity", "Road/Distance", "Road/Load", "Mesh/Degree"});
-  if (plan.parameters.road.curvature != 0)
-    told_keys.insert("Road/Curvature");
-  for (const Setting& setting : plan.varied)
-    told_keys.erase(setting.path());
-  std::stringstream all;
-  print_parameters(all, plan.parameters.settings);
+  const std::vector<Setting>& settings = plan.parameters.settings;
   std::string title;
-  for (const Setting& setting : read_settings(all, "parameters"))
-    if (told_keys.count(setting.path()) > 0 && setting.value != "none")
-      title += (title.empty() ? "" : ", ") + (setting.value == "uzawa" ? "Uzawa's method"
-                                              : setting.key == "Method"
-                                                  ? setting.value
-                                                  : told(setting, units_of(study)));
+  for (const Key& key : all_keys()) {
+    const Setting setting{key.section, key.name, value_of(key, settings), ""};
+    const bool is_shared =
+        !last_of(plan.varied, key.path()) &&
+        (plan.scene.empty() || !(key.affects & (Affects::scene | Affects::mesh)));
+    const bool is_named = (key.affects & Affects::titles) ||
+                          ((key.affects & Affects::scene) && setting.value != key.default_value);
+    if (is_shared && is_named && setting.value != "none")
+      title += (title.empty() ? "" : ", ") + told(setting, units_of(study));
+  }
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 

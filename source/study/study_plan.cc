@@ -1,11 +1,12 @@
 #include "rollwave/study/study_plan.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
 
+#include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -42,15 +43,6 @@ std::string shortest(const std::string& value) {
   return text;
 }
 
-std::map<std::string, std::string> default_values() {
-  std::stringstream text;
-  print_parameters(text, {});
-  std::map<std::string, std::string> values;
-  for (const Setting& setting : read_settings(text, "defaults"))
-    values[setting.path()] = shortest(setting.value);
-  return values;
-}
-
 void check(const Parameters& parameters, unsigned int n_processes) {
   try {
     make_scene(parameters);
@@ -60,24 +52,38 @@ void check(const Parameters& parameters, unsigned int n_processes) {
   }
 }
 
-/// How a key is told of.
-struct Words {
-  std::string words, symbol;
-  Quantity quantity = Quantity::number;
-};
+/// The settings that the runs of a study share.
+std::vector<Setting> common_settings(const Parameters& study) {
+  std::vector<Setting> common;
+  for (const Setting& setting : study.settings)
+    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
+        setting.path() != "Output/Files")
+      common.push_back(setting);
+  return common;
+}
 
-const std::map<std::string, Words> words_of_keys = {
-    {"Cylinder/Inner radius", {"radius of the hub", "a", Quantity::length}},
-    {"Cylinder/Outer radius", {"radius of the cylinder", "b", Quantity::length}},
-    {"Cylinder/Angular velocity", {"angular velocity", "ω", Quantity::angular_velocity}},
-    {"Cylinder/Radial force", {"radial force", "f"}},
-    {"Material/Shear modulus", {"shear modulus", "μ", Quantity::pressure}},
-    {"Material/Width", {"width", "w", Quantity::length}},
-    {"Road/Distance", {"road distance", "c", Quantity::length}},
-    {"Road/Load", {"load", "L", Quantity::force}},
-    {"Road/Curvature", {"curvature of the road", "κ"}},
-    {"Road/Contact zone", {"zone of contact", "[z0, z1]"}},
-    {"Contact/Rho", {"step length", "ρ", Quantity::force_density}}};
+/// What a run depends on, see RunPlan::identity.
+std::map<std::string, std::string> identity_of(const Parameters& run) {
+  std::map<std::string, std::string> identity;
+  for (const Setting& setting : run.settings) {
+    const Key& key = key_of(setting);
+    const std::string value = shortest(value_of(key, run.settings));
+    if (key.affects != Affects::files && value != shortest(key.default_value))
+      identity[key.path()] = value;
+  }
+  return identity;
+}
+
+/// Refuses a varied key that belongs to Uzawa's method where no run uses that.
+void check_method(const std::vector<RunPlan>& plans) {
+  const bool has_uzawa = std::any_of(plans.begin(), plans.end(), [](const RunPlan& plan) {
+    return plan.parameters.contact.method == ContactMethod::uzawa;
+  });
+  for (const Setting& setting : plans.front().varied)
+    if (!has_uzawa && (key_of(setting).affects & Affects::uzawa))
+      throw BadValue("Study", "Vary",
+                     setting.path() + " has no effect without Contact/Method = uzawa");
+}
 
 } // namespace
 
@@ -85,12 +91,7 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
   std::vector<NamedScene> scenes = parameters.study.scenes;
   if (scenes.empty())
     scenes.push_back({"", {}});
-  std::vector<Setting> common;
-  for (const Setting& setting : parameters.settings)
-    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
-        setting.path() != "Output/Files")
-      common.push_back(setting);
-  const auto defaults = default_values();
+  const std::vector<Setting> common = common_settings(parameters);
   std::vector<RunPlan> plans;
   for (const auto& scene : scenes)
     for (const auto& varied : combinations(parameters.study.vary)) {
@@ -99,39 +100,32 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
       settings.insert(settings.end(), varied.begin(), varied.end());
       plans.push_back({scene.name, varied, {}, read_parameters(settings), {}});
       check(plans.back().parameters, n_processes);
-      for (const Setting& setting : settings) {
-        auto& value = plans.back().identity[setting.path()] = shortest(setting.value);
-        if (value == defaults.at(setting.path()) || setting.section == "Output")
-          plans.back().identity.erase(setting.path());
-      }
+      plans.back().identity = identity_of(plans.back().parameters);
       if (parameters.study.true_errors)
         plans.back().identity["Study/True errors"] = "true";
     }
+  check_method(plans);
   const auto& published = parameters.study.published_steps;
   if (!published.empty() && published.size() != plans.size())
-    throw BadInput(refusal(parameters.settings, "Study", "Published steps",
-                           "there are " + std::to_string(published.size()) + " entries for " +
-                               std::to_string(plans.size()) + " runs"));
+    throw BadValue("Study", "Published steps",
+                   "there are " + std::to_string(published.size()) + " entries for " +
+                       std::to_string(plans.size()) + " runs");
   for (unsigned int i = 0; i < published.size(); ++i)
     plans[i].published_steps = published[i];
   return plans;
 }
 
 std::string words(const Setting& setting, const Units& units) {
-  const auto known = words_of_keys.find(setting.path());
-  if (known != words_of_keys.end())
-    return known->second.words + ' ' + known->second.symbol +
-           units.in_brackets(known->second.quantity);
-  std::string text = setting.key;
+  const Key& key = key_of(setting);
+  std::string text = key.words.empty() ? key.name : key.words;
   text[0] = std::tolower(text[0]);
-  return text;
+  return text + (key.symbol.empty() ? "" : ' ' + key.symbol) + units.in_brackets(key.quantity);
 }
 
 std::string told(const Setting& setting, const Units& units) {
-  const auto known = words_of_keys.find(setting.path());
-  if (known == words_of_keys.end())
-    return words(setting, units) + ' ' + setting.value;
-  return known->second.symbol + " = " + setting.value + units.after(known->second.quantity);
+  const Key& key = key_of(setting);
+  return (key.symbol.empty() ? words(setting, {}) + ' ' : key.symbol + " = ") + setting.value +
+         units.after(key.quantity);
 }
 
 std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told) {

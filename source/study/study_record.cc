@@ -1,5 +1,6 @@
 #include "rollwave/study/study_record.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/scene/units.h"
 
 #include <nlohmann/json.hpp>

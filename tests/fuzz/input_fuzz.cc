@@ -3,7 +3,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/parameters/prm_reader.h"
 #include "rollwave/scene/scene.h"
 
 #include <algorithm>
@@ -40,15 +39,10 @@ std::vector<Setting> settings_of_command_line(const std::string& text) {
   return read_command_line(arguments).settings;
 }
 
-std::vector<Setting> settings_of_file(const std::string& text) {
-  std::istringstream in(text);
-  return read_settings(in, "input");
-}
-
 void read(const std::string& text) {
   const std::vector<Setting> settings = !text.empty() && text.front() == '-'
                                             ? settings_of_command_line(text)
-                                            : settings_of_file(text);
+                                            : parse_settings(text, "input");
   const Parameters parameters = read_parameters(settings);
   const Scene scene = make_scene(parameters);
 
@@ -61,7 +55,7 @@ void read(const std::string& text) {
             "a uniform force is a number");
 
   const std::string text_of_parameters = printed(settings);
-  const std::vector<Setting> again = settings_of_file(text_of_parameters);
+  const std::vector<Setting> again = parse_settings(text_of_parameters, "input");
   require(printed(again) == text_of_parameters, "printed parameters are read back",
           text_of_parameters);
 }

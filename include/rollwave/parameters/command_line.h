@@ -1,8 +1,11 @@
 #ifndef ROLLWAVE_PARAMETERS_COMMAND_LINE_H
 #define ROLLWAVE_PARAMETERS_COMMAND_LINE_H
 
-#include "rollwave/parameters/prm_reader.h"
+#include "rollwave/parameters/key.h"
 
+#include <mpi.h>
+
+#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -8,7 +8,7 @@
 
 namespace rollwave {
 
-class Declarations;
+class Keys;
 
 enum class OutputFile { summary, contact, parameters, solution, surface, plot };
 
@@ -22,12 +22,11 @@ struct OutputOptions {
   CellKind cells = CellKind::high_order;
 };
 
-/// A list of kinds of files, and parameters. @throws std::invalid_argument for an unknown one,
-/// BadInput for one of earlier versions
+/// A list of kinds of files, and `parameters`. @throws BadInput for an unknown one
 std::set<OutputFile> parse_files(const std::string& text);
 
 /// The keys of the section.
-void declare_output(Declarations& keys, OutputOptions& output, UnitNames& names);
+void declare_output(Keys& keys, OutputOptions& output, UnitNames& names);
 
 } // namespace rollwave
 

@@ -2,21 +2,22 @@
 #define ROLLWAVE_PARAMETERS_PARAMETERS_H
 
 #include "rollwave/base/errors.h"
+#include "rollwave/parameters/key.h"
 #include "rollwave/parameters/output_options.h"
-#include "rollwave/parameters/prm_reader.h"
 #include "rollwave/parameters/study_options.h"
 #include "rollwave/run/run_options.h"
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <iosfwd>
-#include <set>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
 /**
- * All that a parameter file can say, one member for each key, in the file's sections. Lengths share
+ * The values of a parameter file, one member for each key, in the file's sections. Lengths share
  * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
  */
 struct Parameters : RunOptions {
@@ -26,27 +27,39 @@ struct Parameters : RunOptions {
 
   std::filesystem::path file; ///< that was read; never written over
 
-  /// What was set, in order of increasing precedence; later entries override earlier ones.
+  /// The values given to keys; later ones override earlier ones.
   std::vector<Setting> settings;
 
   bool wants(OutputFile kind) const { return output.files.count(kind) > 0; }
 };
 
+/// Every key, in the order of `rollwave --parameters`.
+const std::vector<Key>& all_keys();
+
+/// The key of a setting that read_parameters() has accepted.
+const Key& key_of(const Setting& setting);
+
+/// The value of a key: the last of @p settings, or the default.
+std::string value_of(const Key& key, const std::vector<Setting>& settings);
+
+/// The settings in the text of a parameter file. @p name is that of the file in messages.
+/// @throws BadInput for an unknown section or key, a value that its key does not accept, a line of
+///         another form, a key that is set twice, or a section that is not closed
+std::vector<Setting> parse_settings(const std::string& text, const std::string& name);
+
+/// The same of the file at a path, which rank 0 reads for all: a pipe gives its text once.
+/// @throws BadInput also for a file that cannot be read or is longer than 1 MiB
+std::vector<Setting> read_settings(const std::filesystem::path& file,
+                                   MPI_Comm communicator = MPI_COMM_SELF);
+
 /**
- * The parameters that @p settings describe; keys not mentioned keep their defaults.
+ * The parameters with these settings; the other keys keep their defaults. Of `Road/Distance` and
+ * `Road/Load` the later one holds, unless both have the same origin.
  *
- * @throws BadInput for an unknown section or key (naming the nearest known ones), or a value that
- *         its key does not admit. What depends on several keys is checked by make_scene().
+ * @throws BadInput for an unknown section or key, or a value that its key does not accept.
+ * Conditions between several keys are checked by make_scene().
  */
 Parameters read_parameters(const std::vector<Setting>& settings);
-
-/// The message for a value that is not admitted: where it was set, section, key, value and what is
-/// wanted instead.
-std::string refusal(const std::vector<Setting>& settings, const std::string& section,
-                    const std::string& key, const std::string& wanted);
-
-/// The same for a value that a lower floor has refused.
-std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
 
 /// A complete commented parameter file: defaults, overridden by @p settings.
 /// @throws BadInput as read_parameters().

@@ -1,8 +1,8 @@
 #ifndef ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 #define ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
 
+#include "rollwave/parameters/key.h"
 #include "rollwave/parameters/output_options.h"
-#include "rollwave/parameters/prm_reader.h"
 
 #include <optional>
 #include <set>
@@ -11,7 +11,7 @@
 
 namespace rollwave {
 
-class Declarations;
+class Keys;
 
 /// A scene of a study by its name, with the settings that make it.
 struct NamedScene {
@@ -19,21 +19,20 @@ struct NamedScene {
   std::vector<Setting> settings;
 };
 
-/// The choices for a key, or for keys that move together: one setting for each key.
+/// The choices for a key, or for keys that vary together: one setting for each key.
 using Variation = std::vector<std::vector<Setting>>;
 
 /// Section `Study`.
 struct StudyOptions {
   std::vector<NamedScene> scenes; ///< none: the scene of the file
-
-  std::vector<Variation> vary; ///< the study runs every combination
+  std::vector<Variation> vary;    ///< the study runs every combination
   std::vector<std::optional<unsigned int>> published_steps;
   bool true_errors = false;
   std::set<OutputFile> files_of_each_run;
 };
 
 /// The keys of the section.
-void declare_study(Declarations& keys, StudyOptions& study);
+void declare_study(Keys& keys, StudyOptions& study);
 
 } // namespace rollwave
 

@@ -1,0 +1,59 @@
+#ifndef ROLLWAVE_PARAMETERS_KEY_H
+#define ROLLWAVE_PARAMETERS_KEY_H
+
+#include "rollwave/base/errors.h"
+#include "rollwave/scene/units.h"
+
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// A value given to a key. The origin is the name of the file, or the option of the command line.
+struct Setting {
+  std::string section, key, value, origin;
+
+  std::string path() const { return section + '/' + key; }
+};
+
+/// The assignment in "Section/Key=value"; without a slash its section is empty.
+/// @throws BadInput when @p text has another form.
+Setting parse_setting(const std::string& text, const std::string& origin);
+
+/// The last setting of a key; nullptr without one.
+const Setting* last_of(const std::vector<Setting>& settings, const std::string& path);
+
+/// The message on a refused value: origin, section, key, value and reason.
+std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
+
+/// What depends on a key; one key may have several of these flags.
+struct Affects {
+  enum : unsigned int {
+    scene = 1,      ///< the problem that is solved
+    mesh = 2,       ///< mesh and linear solver, which runs with the same values share
+    resolution = 4, ///< the number of cells
+    method = 8,     ///< contact iteration and error bounds
+    uzawa = 16,     ///< Uzawa's method only
+    files = 32,     ///< what is written
+    titles = 64     ///< titles of plots, which name the key even at its default
+  };
+};
+
+/// How studies name a key, and what depends on it.
+struct KeyAttributes {
+  unsigned int affects = 0; ///< flags of Affects, to which those of the section are added
+  std::string symbol = {};  ///< such as "c"
+  std::string words = {};   ///< such as "road distance"; empty: the name of the key
+  Quantity quantity = Quantity::number;
+};
+
+/// A key of parameter files.
+struct Key : KeyAttributes {
+  std::string section, name, default_value, text;
+
+  std::string path() const { return section + '/' + name; }
+};
+
+} // namespace rollwave
+
+#endif
