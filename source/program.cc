@@ -68,7 +68,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, OutputDirecto
   directory.remove_files_of_earlier_runs(written);
   if (verifies) {
     attempt([&] { verify(solution, out); }, "the result could not be verified",
-            "leave out --verify", processes.communicator(), solution.result);
+            "leave out --verify", communicator, solution.result);
     write_summary(directory.path(), parameters, solution);
   }
   report_end(out, solution.result.work, written);
