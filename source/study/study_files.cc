@@ -4,7 +4,6 @@
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
