@@ -357,10 +357,11 @@ TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
                                   "; timeout -s KILL 60 $rollwave " + scene);
     // The loader has no room for the libraries.
     const bool is_loaded = outcome.text.find("shared librar") == std::string::npos;
-    if (most == lots)
+    if (most == lots) {
       EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    else if (is_loaded)
+    } else if (is_loaded) {
       EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << most << outcome.text;
+    }
   }
 }
 #endif

@@ -46,7 +46,7 @@ std::vector<NamedScene> scenes() {
   return scenes;
 }
 
-nlohmann::json solve(const Parameters& parameters) {
+nlohmann::json summary_of(const Parameters& parameters) {
   const Scene scene = make_scene(parameters);
   const Result result = in_users_units(simulate(scene, parameters).result, scene.units);
   return quantities_of(nlohmann::json::parse(summary_json(scene, parameters, result)));
@@ -56,14 +56,14 @@ TEST(Quantities, AreThoseOfEveryMethod) {
   for (const auto& [name, settings] : scenes()) {
     const Parameters parameters =
         with(parameters_of({"Mesh/Radial cells=3", "Mesh/Angular cells=60"}), settings);
-    const nlohmann::json expected = solve(parameters);
+    const nlohmann::json expected = summary_of(parameters);
     {
       SCOPED_TRACE(name + ", iterative");
-      expect_same_quantities(solve(with(parameters, {"Solver/Kind=iterative"})), expected,
+      expect_same_quantities(summary_of(with(parameters, {"Solver/Kind=iterative"})), expected,
                              tolerance_of_solvers);
     }
     SCOPED_TRACE(name + ", Uzawa");
-    expect_same_quantities(solve(with(parameters, {"Contact/Method=uzawa"})), expected,
+    expect_same_quantities(summary_of(with(parameters, {"Contact/Method=uzawa"})), expected,
                            tolerance_of_uzawa);
   }
 }

@@ -176,7 +176,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
   EXPECT_GE(counts.compared, n_scenes / 50);
 }
 
-nlohmann::json solve(const Parameters& parameters, const Scene& scene) {
+nlohmann::json quantities_by_solving(const Parameters& parameters, const Scene& scene) {
   const Result result = simulate(scene, parameters).result;
   return quantities_of(nlohmann::json::parse(summary_json(scene, parameters, result)));
 }
@@ -191,8 +191,9 @@ TEST(RandomScenes, HaveTheSameNumbersByUzawasMethod) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      const nlohmann::json expected = solve(parameters, scene);
-      const nlohmann::json found = solve(with(parameters, {"Contact/Method=uzawa"}), scene);
+      const nlohmann::json expected = quantities_by_solving(parameters, scene);
+      const nlohmann::json found =
+          quantities_by_solving(with(parameters, {"Contact/Method=uzawa"}), scene);
       expect_same_quantities(found, expected, tolerance_of_uzawa);
       ++n_compared;
     } catch (const BadInput&) {

@@ -62,6 +62,7 @@ bool fit_blas_into_address_space(char** argv) {
   if (!std::getenv("OPENBLAS_NUM_THREADS") && !std::getenv("OMP_NUM_THREADS")) {
     // OpenBLAS has read its variables before main() begins.
     setenv("OPENBLAS_NUM_THREADS", "1", 0);
+    setenv("OMP_NUM_THREADS", "1", 0);
     execv("/proc/self/exe", argv); // which returns only if it fails
   }
   constexpr std::size_t buffer = 160 << 20; // with the rest of a first call

@@ -34,8 +34,8 @@ struct MeshSolution {
   ContactSolution contact;
   Loads stiffness;
   std::optional<std::string> shortfall; ///< of a load that is given
-  FieldVector displacement; ///< u_h
-  Energy energy;            ///< of u_h
+  FieldVector displacement;             ///< u_h
+  Energy energy;                        ///< of u_h
   Residuals residuals;
 };
 
