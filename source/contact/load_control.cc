@@ -194,7 +194,7 @@ bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& act
   const unsigned int n = problem.size();
   const double tangent = problem.shape.tangent_angle();
   const auto first = std::find(active.begin(), active.end(), true);
-  if (first == active.end())
+  if (first == active.end() || !(problem.shape.curvature > 0)) // other roads have no tangent
     return false;
   const unsigned int left = first - active.begin(),
                      right = n - 1 -

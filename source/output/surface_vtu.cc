@@ -68,17 +68,17 @@ std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double
 std::string surface_vtu(const Scene& scene, const Result& result) {
   const double length = scene.units.length, b = scene.outer_radius * length;
   std::vector<double> radius, angle, displacement, pressure, gap;
-  const auto add = [&](const SurfacePoint& point) {
+  const auto add = [&](const SurfacePoint& point, double turn) {
     const double z = point.angle, road = scene.has_road_at(z) ? scene.road(z) * length : b;
     radius.push_back(b + point.displacement);
-    angle.push_back(z);
+    angle.push_back(z + turn);
     displacement.push_back(point.displacement);
     pressure.push_back(pressure_at(result.contact_rows, z));
     gap.push_back(road < b ? road - point.displacement : std::numeric_limits<double>::quiet_NaN());
   };
   for (const SurfacePoint& point : result.surface)
-    add(point);
-  add({result.surface.front().angle + 2 * numbers::PI, result.surface.front().displacement});
+    add(point, 0);
+  add(result.surface.front(), 2 * numbers::PI); // which closes the line
   const auto name = [&scene](const std::string& field, Quantity quantity) {
     return field + scene.units.in_brackets(quantity);
   };
