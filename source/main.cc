@@ -5,6 +5,7 @@
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/program.h"
+#include "rollwave/run/quantities.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -55,6 +56,9 @@ void act(const std::vector<std::string>& arguments, MPI_Comm communicator, std::
     out << text.str();
     break;
   }
+  case CommandLine::Action::quantities:
+    print_quantities(out);
+    break;
   case CommandLine::Action::run:
     run_program(line, communicator, out);
   }

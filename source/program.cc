@@ -61,7 +61,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator);
-  report_result(out, in_users_units(solution.result, scene.units), scene.units);
+  report_result(out, solution.result, scene.units);
   const auto& directory = parameters.output.directory;
   const WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) {

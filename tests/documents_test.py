@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The documents keep their promises: links and named files exist, commands of README and manual run,
-tables are those of doc/results, and doc/parameters.md is what the program prints.
+tables are those of doc/results, and doc/parameters.md and doc/quantities.md are what the program prints.
 
-Usage: documents_test.py ROOT ROLLWAVE [--write]      (--write renews doc/parameters.md)
+Usage: documents_test.py ROOT ROLLWAVE [--write]      (--write renews these two)
 """
 import pathlib
 import re
@@ -11,9 +11,9 @@ import subprocess
 import sys
 import tempfile
 
-root, rollwave = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
+root, rollwave = pathlib.Path(sys.argv[1]).resolve(), str(pathlib.Path(sys.argv[2]).resolve())
 doc = root / 'doc'
-readme, parameters = root / 'README.md', doc / 'parameters.md'
+readme, parameters, quantities = root / 'README.md', doc / 'parameters.md', doc / 'quantities.md'
 faults = []
 
 
@@ -27,7 +27,7 @@ def anchors(path):
     return {re.sub(r'[^\w -]', '', heading.lower()).replace(' ', '-') for heading in headings}
 
 
-own = [path for path in doc.glob('*.md') if path != parameters]
+own = [path for path in doc.glob('*.md') if path not in (parameters, quantities)]
 cookbook = sorted((doc / 'cookbook').glob('*.md'))
 pages = [readme, *own, *cookbook, *sorted((doc / 'results').glob('*.md'))]
 
@@ -74,14 +74,19 @@ with tempfile.TemporaryDirectory() as place:
                     run = subprocess.run(command, shell=True, cwd=place, capture_output=True)
                     require(run.returncode == 0, f'{page.name}: this fails: {line}')
 
-printed = subprocess.run([rollwave, '--parameters'], capture_output=True, text=True, check=True).stdout
-current = ('# Parameters\n\nEvery key with its default, as the program prints it by\n\n```sh\n'
-           'build/rollwave --parameters\n```\n\n```\n' + printed.strip() + '\n```\n')
-if '--write' in sys.argv:
-    parameters.write_text(current)
-require(parameters.exists() and parameters.read_text() == current,
-        'doc/parameters.md is not what the program prints; renew it by '
-        'python3 tests/documents_test.py . build/rollwave --write')
+def require_printed(page, title, option, fence):
+    printed = subprocess.run([rollwave, option], capture_output=True, text=True, check=True).stdout
+    current = (f'# {title}\n\nThe program prints this page by\n\n```sh\nbuild/rollwave {option}\n```\n\n'
+               + fence + printed.strip() + '\n' + fence).rstrip() + '\n'
+    if '--write' in sys.argv:
+        page.write_text(current)
+    require(page.exists() and page.read_text() == current,
+            f'{page.name} is not what the program prints; renew it by '
+            'python3 tests/documents_test.py . build/rollwave --write')
+
+
+require_printed(parameters, 'Parameters', '--parameters', '```\n')
+require_printed(quantities, 'Quantities', '--quantities', '')
 
 print('\n'.join(faults))
 sys.exit(len(faults) > 0)

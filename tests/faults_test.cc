@@ -153,9 +153,8 @@ std::vector<std::string> figures_of_study(const std::string& csv) {
   std::vector<std::string> rows;
   for (const std::string& line : lines_of(csv)) {
     const auto header = lines_of(csv).front();
-    // Seconds and memory are the last columns.
-    const auto n_costs =
-        std::count(header.begin() + header.find("seconds_mesh"), header.end(), ',') + 1;
+    // Work, seconds and memory are the last columns.
+    const auto n_costs = std::count(header.begin() + header.find(",work."), header.end(), ',') + 1;
     std::string row = line;
     for (int i = 0; i < n_costs; ++i)
       row.erase(row.rfind(','));

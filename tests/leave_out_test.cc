@@ -14,10 +14,7 @@ Work work_of(std::vector<std::string> assignments) {
 }
 
 bool has_phase(const Work& work, const std::string& name) {
-  for (const auto& [phase, seconds] : work.seconds())
-    if (phase == name)
-      return true;
-  return false;
+  return work.seconds(name).has_value();
 }
 
 TEST(LeaveOut, NoLoadWithoutForce) {

@@ -87,6 +87,16 @@ def order(rows, x, error):
             sum((x - x_mean) ** 2 for x, _ in points))
 
 
+def bound_over_error(run):
+    error = run['error.exact_feasible_energy_norm']
+    return run['error.certified_energy_norm'] / error if error else ''
+
+
+def largest_residual(run):
+    values = [run[name] for name in run if name.startswith('residuals.')]
+    return max(values) if all(value != '' for value in values) else ''
+
+
 def spread(values):
     values = [value for value in values if value != '']
     return f'{min(values):.2f} to {max(values):.2f}'
@@ -111,12 +121,12 @@ def orders():
         runs = study(f'studies/order-{name}', pictures={'study-h.svg': f'order-{name}.svg'})
         for degree in (1, 2):
             own = [run for run in runs if run['Mesh/Degree'] == degree]
-            expected = own[-1]['expected_order']
-            short.append([name, f'Q{degree}', own[-1]['dofs'], own[-1]['error_relative'],
-                          f'{order(own, "h_max", "error_relative"):.2f}', expected])
-            rows += [[name, f'Q{degree}', run['dofs'], run['contact_steps'], run['error_relative'],
-                      run['error_l2_norm'], run['error_pressure'], run['error_force'],
-                      run['error_energy']] for run in own]
+            expected = own[-1]['error.expected_order']
+            short.append([name, f'Q{degree}', own[-1]['mesh.dofs'], own[-1]['error.exact_relative'],
+                          f'{order(own, "mesh.h_max", "error.exact_relative"):.2f}', expected])
+            rows += [[name, f'Q{degree}', run['mesh.dofs'], run['iterations.contact'], run['error.exact_relative'],
+                      run['error.exact_l2_norm'], run['error.exact_pressure'], run['error.exact_force'],
+                      run['error.exact_energy']] for run in own]
     return (table(['contact', 'elements', 'finest, unknowns', 'its error', 'order in h', 'expected'],
                   short),
             table(['contact', 'elements', 'unknowns', 'steps', 'energy norm, relative', 'L2 norm',
@@ -132,13 +142,13 @@ def adaptive():
                    if (run['Mesh/Degree'], run['Mesh/Marking']) == (degree, marking)]
             kind = 'uniform' if marking == 'all' else 'adaptive'
             last = own[-1]
-            short.append([name, f'Q{degree}', kind, last['dofs'], last['error_relative'],
-                          f'{-2 * order(own, "dofs", "error_relative"):.2f}',
-                          last['expected_order'], last['certified_relative'],
-                          spread([run['bound_over_error'] for run in own]), last['seconds']])
-            rows += [[name, f'Q{degree}', kind, run['dofs'], run['contact_steps'],
-                      run['error_relative'], run['certified_relative'], run['effectivity'],
-                      run['bound_over_error'], run['seconds']] for run in own]
+            short.append([name, f'Q{degree}', kind, last['mesh.dofs'], last['error.exact_relative'],
+                          f'{-2 * order(own, "mesh.dofs", "error.exact_relative"):.2f}',
+                          last['error.expected_order'], last['error.certified_relative'],
+                          spread([bound_over_error(run) for run in own]), last['seconds.total']])
+            rows += [[name, f'Q{degree}', kind, run['mesh.dofs'], run['iterations.contact'],
+                      run['error.exact_relative'], run['error.certified_relative'], run['error.effectivity'],
+                      bound_over_error(run), run['seconds.total']] for run in own]
     return (table(['contact', 'elements', 'mesh', 'unknowns', 'error', 'order', 'expected',
                    'certified', 'bound / error, all meshes', 'seconds'], short),
             table(['contact', 'elements', 'mesh', 'unknowns', 'steps', 'error', 'certified',
@@ -160,9 +170,9 @@ def extremes():
     for run in runs:
         outcome = ('solved' if run['failure'] == '' else
                    'less than wanted' if run['solved'] else 'not solved')
-        rows.append([run['scene'], run['dofs'], run['contact_steps'],
-                     f'{run["force"]:.9g}' if run['solved'] else '', run['certified_relative'],
-                     run['residual'], run['seconds'], outcome])
+        rows.append([run['scene'], run['mesh.dofs'], run['iterations.contact'],
+                     f'{run["contact.force"]:.9g}' if run['solved'] else '', run['error.certified_relative'],
+                     largest_residual(run), run['seconds.total'], outcome])
     titles = ['scene', 'unknowns', 'steps', 'F', 'certified', 'largest residual', 'seconds', 'outcome']
     return table(titles, [row for row in rows if row[0] in chosen]), table(titles, rows)
 
@@ -191,7 +201,7 @@ def phases():
     for degree, radial, angular in ((1, 88, 1112), (2, 44, 556), (1, 282, 3544), (2, 141, 1772)):
         run = scene('figure-4', {**uniform(degree, radial, angular),
                                  'Output/Files': 'summary, contact, solution'}, repeats=2)
-        seconds = run['seconds']
+        seconds = run['seconds.total']
         rows.append([f'Q{degree}', run['mesh']['dofs'],
                      *[sum(seconds.get(phase, 0.) for phase in group) for group in (
                          ['mesh', 'space'], ['assembly'], ['ordering', 'factorisation'], ['contact'],
@@ -206,7 +216,7 @@ def sweep():
     for degree, radial, angular in ((1, 88, 1112), (2, 44, 556)):
         runs = study('figure-4', {**uniform(degree, radial, angular), 'Output/Files': 'summary',
                                   'Study/Vary': 'Road/Distance = 0.78 | 0.79 | 0.8 | 0.81 | 0.82 | 0.83'})
-        others = sorted(run['seconds'] for run in runs[1:])
+        others = sorted(run['seconds.total'] for run in runs[1:])
         rows.append([f'Q{degree}', runs[0]['dofs'], runs[0]['seconds'], others[len(others) // 2]])
     return [table(['elements', 'unknowns', 'first distance, seconds', 'a further one, seconds'],
                   rows)] * 2

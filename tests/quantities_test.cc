@@ -48,7 +48,7 @@ std::vector<NamedScene> scenes() {
 
 nlohmann::json summary_of(const Parameters& parameters) {
   const Scene scene = make_scene(parameters);
-  const Result result = in_users_units(simulate(scene, parameters).result, scene.units);
+  const Result result = simulate(scene, parameters).result;
   return quantities_of(nlohmann::json::parse(summary_json(scene, parameters, result)));
 }
 

@@ -1,5 +1,6 @@
 // Rows of a study: kept, found again, put into tables; orders of its errors.
 #include "own_path.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_runner.h"
@@ -28,9 +29,9 @@ Study planned(const std::vector<std::string>& assignments) {
 /// Texts with what CSV files treat specially, and figures of many digits, one of them not known.
 StudyRun some_run() {
   StudyRun run;
-  run.figures = figures_of(Result{});
-  for (unsigned int i = 0; i < run.figures.size(); ++i)
-    run.figures[i].value = i == 3 ? not_known : 1. / (3 + i);
+  for (const ResultQuantity& quantity : result_quantities())
+    run.values[quantity.name] = 1. / (3 + run.values.size());
+  run.values.erase("contact.half_width");
   run.reference = "the semi-analytic solution";
   run.failure = "no \"way\", at all";
   run.remarks = {"\"rough\", or so", "ζ"};
@@ -52,10 +53,7 @@ TEST(StudyCsv, IsReadAsItWasWritten) {
   EXPECT_EQ(again.runs[1]->failure, study.runs[1]->failure);
   EXPECT_EQ(again.runs[1]->remarks, study.runs[1]->remarks);
   EXPECT_EQ(again.runs[1]->pressure, study.runs[1]->pressure);
-  for (unsigned int i = 0; i < study.runs[1]->figures.size(); ++i) {
-    const std::string name = study.runs[1]->figures[i].name;
-    EXPECT_EQ(again.figure(1, name), study.figure(1, name)) << name;
-  }
+  EXPECT_EQ(again.runs[1]->values, study.runs[1]->values);
 }
 
 // Cut anywhere it has whole runs or none, and another header than that of the study has none.
@@ -80,11 +78,10 @@ TEST(StudyRecord, HasNoHalfWidthWhereThereAreTwoPatches) {
   const Parameters parameters =
       parameters_of({"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)",
                      "Mesh/Radial cells=6", "Mesh/Angular cells=180"});
-  StudyRun run;
-  run.figures = figures_of(simulate(make_scene(parameters), parameters).result);
-  EXPECT_EQ(run.figure("patches"), 2.);
-  EXPECT_FALSE(run.figure("half_width"));
-  EXPECT_GT(run.figure("stiffness_force"), run.figure("stiffness_vertical_load"));
+  const auto values = values_of(simulate(make_scene(parameters), parameters).result, {});
+  EXPECT_EQ(values.at("contact.patch_count"), 2);
+  EXPECT_EQ(values.count("contact.half_width"), 0u);
+  EXPECT_GT(values.at("contact.stiffness.force"), values.at("contact.stiffness.vertical_load"));
 }
 
 class RepeatedStudy : public testing::Test {
@@ -174,12 +171,12 @@ TEST_F(RepeatedStudy, SaysWhatIsShared) {
   run({settings[0], "Study/True errors=true"});
   for (const auto& row : rows()) {
     EXPECT_TRUE(row->shared.empty());
-    EXPECT_TRUE(row->figure("seconds_factorisation"));
+    EXPECT_TRUE(row->values.count("seconds.factorisation") > 0);
   }
   run(settings);
   EXPECT_EQ(rows()[0]->shared, "");
   EXPECT_EQ(rows()[1]->shared, "mesh and matrices");
-  EXPECT_FALSE(rows()[1]->figure("seconds_factorisation"));
+  EXPECT_EQ(rows()[1]->values.count("seconds.factorisation"), 0u);
 }
 
 /// The orders of a study with true errors, where the error of a run is the product of @p factor
@@ -193,9 +190,9 @@ std::string orders(
     const double cells =
         std::ldexp(p.mesh.radial_cells * p.mesh.angular_cells, 2 * p.mesh.global_refinements);
     study.runs[i].emplace();
-    study.runs[i]->figures = {{"dofs", cells},
-                              {"error_relative", factor(p) * std::pow(cells, -0.75)},
-                              {"expected_order", 1.5}};
+    study.runs[i]->values = {{"mesh.dofs", cells},
+                             {"error.exact_relative", factor(p) * std::pow(cells, -0.75)},
+                             {"error.expected_order", 1.5}};
   }
   std::ostringstream text;
   report_orders(text, study);
@@ -210,7 +207,7 @@ unsigned int count(const std::string& text, const std::string& part) {
 }
 
 TEST(Orders, AreThoseOfTheErrors) {
-  const std::string exact = "energy norm 1.5 +- 0 (expected 1.5)";
+  const std::string exact = "error 1.5 +- 0 (expected 1.5)";
   EXPECT_EQ(count(orders("Mesh/Global refinements = 0 | 1 | 2 | 3"), exact), 1u);
   EXPECT_EQ(count(orders("Mesh/Angular cells = 48 | 96 | 200 | 384"), exact), 1u);
   // Each degree has its own.

@@ -1,34 +1,50 @@
 #include "rollwave/base/work.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace rollwave {
 
+namespace {
+
+const std::string& checked(const std::string& name) {
+  const auto& names = Work::phase_names();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw std::out_of_range("there is no phase " + name);
+  return name;
+}
+
+} // namespace
+
+const std::vector<std::string>& Work::phase_names() {
+  static const std::vector<std::string> names = {
+      "mesh",          "space",          "assembly",    "ordering",
+      "factorisation", "preconditioner", "contact",     "back-substitution",
+      "measurement",   "indicator",      "certificate", "output"};
+  return names;
+}
+
 Work::Phase::Phase(Work& work, const std::string& name)
-    : work(work), name(name), outer(work.innermost) {
+    : work(work), seconds(work.seconds_of[checked(name)]), outer(work.innermost) {
   work.innermost = this;
 }
 
 Work::Phase::~Phase() {
-  const double seconds = timer.wall_time();
-  work.add_seconds(name, seconds - inner_seconds);
+  const double all = timer.wall_time();
+  seconds += all - inner_seconds;
   if (outer)
-    outer->inner_seconds += seconds;
+    outer->inner_seconds += all;
   work.innermost = outer;
 }
 
-void Work::add_seconds(const std::string& phase, double seconds) {
-  const auto entry = std::find_if(phases.begin(), phases.end(),
-                                  [&phase](const auto& known) { return known.first == phase; });
-  if (entry == phases.end())
-    phases.emplace_back(phase, seconds);
-  else
-    entry->second += seconds;
+std::optional<double> Work::seconds(const std::string& phase) const {
+  const auto entry = seconds_of.find(phase);
+  return entry == seconds_of.end() ? std::nullopt : std::optional(entry->second);
 }
 
 double Work::total_seconds() const {
   double total = 0;
-  for (const auto& [phase, seconds] : phases)
+  for (const auto& [phase, seconds] : seconds_of)
     total += seconds;
   return total;
 }

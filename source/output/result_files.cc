@@ -22,15 +22,17 @@ using namespace dealii;
 namespace {
 
 std::string contact_csv(const Result& result, const Units& units) {
-  const std::string length = units.in_brackets(Quantity::length);
+  const std::string length_unit = units.in_brackets(Quantity::length);
+  const double length = units.of(Quantity::length), pressure = units.of(Quantity::pressure),
+               area = length * units.material.width;
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
-  out << "z" << units.in_brackets(Quantity::angle) << ",u" << length << ",phi" << length << ",gap"
-      << length << ",pressure" << units.in_brackets(Quantity::pressure) << ",weight"
+  out << "z" << units.in_brackets(Quantity::angle) << ",u" << length_unit << ",phi" << length_unit
+      << ",gap" << length_unit << ",pressure" << units.in_brackets(Quantity::pressure) << ",weight"
       << units.in_brackets(Quantity::area) << '\n';
   for (const ContactRow& row : result.contact_rows)
-    out << row.angle << ',' << row.displacement << ',' << row.road << ',' << row.gap << ','
-        << row.pressure << ',' << row.weight << '\n';
+    out << row.angle << ',' << row.displacement * length << ',' << row.road * length << ','
+        << row.gap * length << ',' << row.pressure * pressure << ',' << row.weight * area << '\n';
   return out.str();
 }
 
@@ -74,7 +76,7 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
 
 /// summary.json with what has been done so far; all processes must ask.
 std::string summary_of(const Parameters& parameters, const Solution& solution) {
-  Result result = in_users_units(solution.result, solution.scene.units);
+  Result result = solution.result;
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
   return summary_json(solution.scene, parameters, result);
 }
@@ -84,7 +86,7 @@ std::string summary_of(const Parameters& parameters, const Solution& solution) {
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution) {
   const Scene& scene = solution.scene;
-  const Result result = in_users_units(solution.result, scene.units);
+  const Result& result = solution.result;
   WrittenFiles written;
   Work& work = solution.result.work;
   const MPI_Comm communicator = solution.space->communicator();

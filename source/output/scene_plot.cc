@@ -31,9 +31,10 @@ std::string title_of(const Scene& scene, const Result& result) {
         << (is_given ? "omega / critical = " : "omega b = ") << scene.angular_velocity * b
         << ",  c / b = " << scene.road_distance / b << ",  a / b = " << scene.inner_radius / b;
   if (is_given)
-    title << ",  F = " << result.patch.force << scene.units.after(Quantity::force);
+    title << ",  F = " << result.patch.force * scene.units.of(Quantity::force)
+          << scene.units.after(Quantity::force);
   else
-    title << ",  F / b = " << result.patch.force / (b * scene.units.length);
+    title << ",  F / b = " << result.patch.force / b;
   if (scene.road_curvature != 0)
     title << ",  kappa b = " << scene.road_curvature * b;
   return title.str();
@@ -46,7 +47,7 @@ std::string pressure_unit(const Units& units) {
 
 /// The data of the panels, lengths in units of b, so that any scene fits the frames.
 void write_data(std::ostream& script, const Scene& scene, const Result& result) {
-  const double b = scene.outer_radius * scene.units.length; // in the user's units
+  const double b = scene.outer_radius, pressure_unit = scene.units.of(Quantity::pressure);
   const auto add_point = [&](double r, double z) {
     script << r * std::cos(z) << ' ' << r * std::sin(z) << '\n';
   };
@@ -64,7 +65,7 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
     script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap / b) << ' '
-           << row.pressure << '\n';
+           << row.pressure * pressure_unit << '\n';
   script << "EOD\n";
 }
 
@@ -143,7 +144,7 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   write_data(script, scene, result);
   double largest = 0;
   for (const SurfacePoint& point : result.surface)
-    largest = std::max(largest, 1 + point.displacement / (scene.outer_radius * scene.units.length));
+    largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
   script << "a = " << scene.inner_radius / scene.outer_radius
          << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)

@@ -2,6 +2,7 @@
 
 #include "rollwave/base/text.h"
 #include "rollwave/base/version.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
 #include <deal.II/base/table_handler.h>
@@ -32,6 +33,7 @@ constexpr unsigned int most_lines = 40;
 
 void report_history(std::ostream& out, const std::vector<ContactStep>& history,
                     const Units& units) {
+  const double length = units.of(Quantity::length), pressure = units.of(Quantity::pressure);
   const std::string penetration = "penetration" + units.in_brackets(Quantity::length),
                     lowest_pressure = "lowest pressure" + units.in_brackets(Quantity::pressure);
   TableHandler table;
@@ -42,8 +44,8 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history,
     table.add_value("step", step + 1);
     table.add_value("active", history[step].active);
     table.add_value("changed", history[step].changed);
-    table.add_value(penetration, history[step].penetration);
-    table.add_value(lowest_pressure, history[step].lowest_pressure);
+    table.add_value(penetration, history[step].penetration * length);
+    table.add_value(lowest_pressure, history[step].lowest_pressure * pressure);
     table.add_value("residual", history[step].residual);
   }
   for (const std::string& column : {penetration, lowest_pressure, std::string("residual")}) {
@@ -61,7 +63,9 @@ void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, c
     table.add_value("unknowns", cycles[i].dofs);
     table.add_value("contact steps", cycles[i].contact_steps);
     table.add_value("indicated error" + units.in_brackets(Quantity::energy_norm),
-                    cycles[i].indicated > 0 ? rounded(cycles[i].indicated, 3) : "-");
+                    cycles[i].indicated > 0
+                        ? rounded(cycles[i].indicated * units.of(Quantity::energy_norm), 3)
+                        : "-");
     table.add_value("certified, relative",
                     cycles[i].certified ? rounded(*cycles[i].certified, 3) : "-");
   }
@@ -80,18 +84,22 @@ std::string first_file(const WrittenFiles& written, const std::string& pattern) 
 void report_certificate(std::ostream& out, const Result& result, const Units& units) {
   const CertifiedError& certified = *result.certified;
   if (!std::isfinite(certified.energy_norm)) {
-    out << "Certified  nothing; the notes say why\n";
+    out << "Certified  no error bound; see the notes\n";
     return;
   }
   const auto range = [&](const char* what, double lower, double upper, Quantity quantity) {
-    out << what << std::setprecision(9) << lower << " to " << upper << units.after(quantity);
+    const double unit = units.of(quantity);
+    out << what << std::setprecision(9) << lower * unit << " to " << upper * unit
+        << units.after(quantity);
   };
   range("Certified  J(u) from ", certified.lower_bound, certified.upper_bound, Quantity::energy);
-  out << ", error in the energy norm at most " << std::setprecision(3) << certified.energy_norm
+  out << ", error in the energy norm at most " << std::setprecision(3)
+      << certified.energy_norm * units.of(Quantity::energy_norm)
       << units.after(Quantity::energy_norm) << ", relative " << certified.relative << '\n';
   if (certified.sampled_width > 0)
-    out << "           for the force as sampled: strips narrower than " << certified.sampled_width
-        << units.after(Quantity::length) << " and spots smaller than a cell may be missed\n";
+    out << "           features of the force smaller than "
+        << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
+        << " may be undetected\n";
   if (const auto& bounds = result.load_bounds) {
     range("           G    from ", bounds->lower, bounds->upper, Quantity::force);
     out << '\n';
@@ -100,6 +108,44 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
     range("           c    from ", bounds->lower, bounds->upper, Quantity::length);
     out << '\n';
   }
+}
+
+void report_patches(std::ostream& out, const ContactResultants& contact, const Units& units) {
+  out << std::setprecision(9);
+  if (contact.patches.empty())
+    out << "  no contact\n";
+  if (contact.patches.size() > 1)
+    out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
+        << " nodes\n";
+  for (const ContactPatch& patch : contact.patches)
+    out << "  contact from " << patch.begin << " to " << patch.end << " rad, half-width "
+        << (patch.end - patch.begin) / 2 << " rad,\n    on "
+        << patch.length * units.of(Quantity::length) << units.after(Quantity::length)
+        << " of the road, force " << patch.force * units.of(Quantity::force)
+        << units.after(Quantity::force) << '\n';
+}
+
+void report_quantities(std::ostream& out, const Result& result, const Units& units) {
+  constexpr unsigned int width = 32; // of words and symbol
+  for (const ResultQuantity& quantity : result_quantities()) {
+    const auto value = quantity.in_users_units(result, units);
+    if (!(quantity.shown & Shown::screen) || !value || std::isnan(*value))
+      continue;
+    const std::string symbol = quantity.symbol.empty() ? "   " : quantity.symbol + " =";
+    out << "  " << std::left << std::setw(width - symbol.size()) << quantity.words << symbol << ' '
+        << rounded(*value, quantity.digits) << units.after(quantity.quantity) << '\n';
+  }
+}
+
+void report_residuals(std::ostream& out, const Result& result) {
+  std::string separator = "Residuals  ";
+  for (const ResultQuantity& quantity : result_quantities())
+    if (quantity.name.rfind("residuals.", 0) == 0) {
+      out << separator << quantity.words << ' '
+          << rounded(*quantity.value(result), quantity.digits);
+      separator = ", ";
+    }
+  out << '\n';
 }
 
 } // namespace
@@ -133,56 +179,53 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 }
 
 void report_result(std::ostream& out, const Result& result, const Units& units) {
-  const auto unit = [&units](Quantity quantity) { return units.after(quantity); };
-  const std::string length = unit(Quantity::length), force = unit(Quantity::force);
   if (result.cycles.size() > 1)
     report_cycles(out, result.cycles, units);
   const MeshFigures& mesh = result.mesh;
+  const double length = units.of(Quantity::length);
   out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs
-      << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min << " to "
-      << mesh.h_max << length << "\n\nContact steps";
+      << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min * length
+      << " to " << mesh.h_max * length << units.after(Quantity::length) << "\n\nContact steps";
   if (result.rho > 0)
-    out << " by Uzawa's method, rho = " << result.rho << unit(Quantity::force_density);
+    out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
+        << units.after(Quantity::force_density);
   else
     out << " by the active set method";
   out << '\n';
   report_history(out, result.history, units);
   for (const std::string& remark : result.remarks)
     out << "Note: " << remark << '\n';
-
-  const ContactResultants& contact = result.patch;
-  out << "\nResult\n" << std::setprecision(9);
-  out << "  road distance        c = " << result.road_distance << length << '\n';
-  if (contact.patches.size() > 1)
-    out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
-        << " nodes\n";
-  for (const ContactPatch& patch : contact.patches)
-    out << "  contact from " << patch.begin << " to " << patch.end << " rad, half-width "
-        << (patch.end - patch.begin) / 2 << " rad, on " << patch.length << length
-        << " of the road, force " << patch.force << force << '\n';
-  if (contact.patches.empty())
-    out << "  no contact\n";
-  out << "  contact force        F = " << contact.force << force << '\n'
-      << "  vertical load            " << contact.vertical_load << force << '\n';
-  if (!std::isnan(contact.work_conjugate_load))
-    out << "  work-conjugate load  G = " << contact.work_conjugate_load << force << '\n';
-  out << "  peak pressure            " << contact.peak_pressure << unit(Quantity::pressure) << '\n';
-  if (!std::isnan(contact.stiffness.vertical))
-    out << "  stiffness  -d(load)/dc   " << rounded(contact.stiffness.vertical, 4)
-        << unit(Quantity::stiffness) << " (vertical)\n";
-  out << "  energy          J(u_h) = " << result.energy.value << unit(Quantity::energy)
-      << ", a(u_h, u_h) = " << result.energy.norm_squared << unit(Quantity::energy) << '\n';
+  out << "\nResult\n";
+  report_patches(out, result.patch, units);
+  report_quantities(out, result, units);
   if (result.certified)
     report_certificate(out, result, units);
   if (!result.shortfalls.empty())
     out << "Shortfall  " << shortfall_text(result) << '\n';
-  out << std::setprecision(2) << "Residuals  equilibrium " << result.residuals.equilibrium
-      << ", penetration " << result.residuals.penetration << ", negative pressure "
-      << result.residuals.negative_pressure << ", complementarity "
-      << result.residuals.complementarity << "; rounding u makes " << result.residuals.round_off
-      << '\n'
-      << std::setprecision(6);
+  report_residuals(out, result);
+  out << std::setprecision(6);
 }
+
+namespace {
+
+/// The errors against the exact solution in norms.
+void report_errors(std::ostream& out, const Result& result, const Units& units) {
+  const auto print = [&](const std::string& name, const std::string& words) {
+    const ResultQuantity& quantity = result_quantity(name);
+    const auto value = quantity.in_users_units(result, units);
+    out << words
+        << (value ? rounded(*value, quantity.digits) + units.after(quantity.quantity)
+                  : "below the accuracy of the reference solution");
+  };
+  print("error.exact_energy_norm", "Error in the energy norm ");
+  if (result.errors->is_resolved)
+    print("error.exact_relative", ", relative ");
+  print("error.exact_l2_norm", "; in L2 ");
+  print("error.exact_pressure", ", of the pressure in L2 ");
+  out << '\n';
+}
+
+} // namespace
 
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
                          const ExactSolution& exact) {
@@ -196,7 +239,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("exact", rounded(theirs * unit, 12));
     table.add_value("difference", rounded((ours - theirs) * unit, 3));
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
-    table.add_value("exact to", accuracy > 0 ? rounded(accuracy, 1) : "-");
+    table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };
   add("force F", Quantity::force, result.patch.force, exact.force, exact.force_accuracy);
   add("vertical load", Quantity::force, result.patch.vertical_load, exact.vertical_load,
@@ -216,16 +259,8 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";
-  if (const auto errors = in_users_units(result, units).errors) {
-    out << "Error in the energy norm ";
-    if (errors->is_resolved)
-      out << errors->energy_norm << units.after(Quantity::energy_norm) << ", relative "
-          << errors->relative_energy_norm;
-    else
-      out << "too small for the exact answer to tell";
-    out << "; in L2 " << errors->l2_norm << units.after(Quantity::area)
-        << ", of the pressure in L2 " << errors->pressure << '\n';
-  }
+  if (result.errors)
+    report_errors(out, result, units);
 }
 
 void report_files(std::ostream& out, const WrittenFiles& written) {
@@ -251,9 +286,10 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
 
 void report_end(std::ostream& out, const Work& work, const WrittenFiles& written) {
   out << "\nSeconds\n" << std::fixed << std::setprecision(3);
-  for (const auto& [phase, seconds] : work.seconds())
-    out << "  " << std::left << std::setw(20) << phase << std::right << std::setw(9) << seconds
-        << '\n';
+  for (const std::string& phase : Work::phase_names())
+    if (const auto seconds = work.seconds(phase))
+      out << "  " << std::left << std::setw(20) << phase << std::right << std::setw(9) << *seconds
+          << '\n';
   out << "  " << std::left << std::setw(20) << "total" << std::right << std::setw(9)
       << work.total_seconds() << '\n'
       << std::defaultfloat << std::setprecision(6);

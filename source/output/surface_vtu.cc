@@ -66,15 +66,17 @@ std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double
 }
 
 std::string surface_vtu(const Scene& scene, const Result& result) {
-  const double length = scene.units.length, b = scene.outer_radius * length;
+  const double length = scene.units.of(Quantity::length), b = scene.outer_radius,
+               pressure_unit = scene.units.of(Quantity::pressure);
   std::vector<double> radius, angle, displacement, pressure, gap;
   const auto add = [&](const SurfacePoint& point, double turn) {
-    const double z = point.angle, road = scene.has_road_at(z) ? scene.road(z) * length : b;
-    radius.push_back(b + point.displacement);
+    const double z = point.angle, road = scene.has_road_at(z) ? scene.road(z) : b;
+    radius.push_back((b + point.displacement) * length);
     angle.push_back(z + turn);
-    displacement.push_back(point.displacement);
-    pressure.push_back(pressure_at(result.contact_rows, z));
-    gap.push_back(road < b ? road - point.displacement : std::numeric_limits<double>::quiet_NaN());
+    displacement.push_back(point.displacement * length);
+    pressure.push_back(pressure_at(result.contact_rows, z) * pressure_unit);
+    gap.push_back(road < b ? (road - point.displacement) * length
+                           : std::numeric_limits<double>::quiet_NaN());
   };
   for (const SurfacePoint& point : result.surface)
     add(point, 0);

@@ -13,6 +13,7 @@ Usage:
   rollwave FILE.prm [OPTIONS]
   mpirun -np N rollwave ...   the same on N processes
   rollwave --parameters [FILE.prm]   print a complete commented parameter file
+  rollwave --quantities   print the names and units of all results
   rollwave --help         print this text
   rollwave --version      print the versions of Rollwave and deal.II
 
@@ -48,6 +49,8 @@ CommandLine read_command_line(const std::vector<std::string>& given) {
       line.action = CommandLine::Action::version;
     else if (*argument == "--parameters")
       line.action = CommandLine::Action::parameters;
+    else if (*argument == "--quantities")
+      line.action = CommandLine::Action::quantities;
     else if (*argument == "--verify")
       line.verify = true;
     else if (*argument == "--output")

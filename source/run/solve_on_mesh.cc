@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <utility>
 
 namespace rollwave {
@@ -29,15 +28,6 @@ MeshFigures describe_mesh(const RingSpace& space) {
           largest_diameter};
 }
 
-/// @p field times rounding errors of random sign and usual size.
-FieldVector rounding_errors(const FieldVector& field) {
-  std::minstd_rand random(1);
-  FieldVector errors = field;
-  for (double& entry : errors)
-    entry *= (random() % 2 ? 0.25 : -0.25) * std::numeric_limits<double>::epsilon();
-  return errors;
-}
-
 /// part / whole, where a part of nothing is nothing.
 double relative(double part, double whole) {
   return part == 0 ? 0 : part / whole;
@@ -45,7 +35,7 @@ double relative(double part, double whole) {
 
 Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
                             const ContactSolution& solution, FieldVector stiffness_times_u,
-                            const std::optional<FieldVector>& load, double round_off) {
+                            const std::optional<FieldVector>& load) {
   const auto& [displacement, force] = solution.state;
   FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
@@ -65,7 +55,7 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
   const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
   return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
           relative(negative_pressure, pressure.linfty_norm()),
-          relative(force_times_gap, force_times_road), relative(round_off, forces)};
+          relative(force_times_gap, force_times_road)};
 }
 
 std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
@@ -155,14 +145,13 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
                                            solution.contact, options.contact.most_steps);
   }
   const Work::Phase phase(work, "measurement");
-  const double round_off = solver->apply(rounding_errors(solution.displacement)).l2_norm();
   FieldVector stiffness_times_u = solver->apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;
   const double work_of_force = system.load ? solution.displacement * *system.load : 0.;
   solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
   require_finite(norm_squared + std::abs(work_of_force), "the energy");
   solution.residuals = measure_residuals(space, solution.problem, solution.contact,
-                                         std::move(stiffness_times_u), system.load, round_off);
+                                         std::move(stiffness_times_u), system.load);
   return solution;
 }
 

@@ -37,6 +37,7 @@ Units::Unit Units::unit(Quantity quantity) const {
   case Quantity::energy_norm:
     return {std::sqrt(stiffness) * length, '(' + newton + ' ' + m + ")^(1/2)"};
   case Quantity::number:
+  case Quantity::count:
     break;
   }
   return {1, ""};

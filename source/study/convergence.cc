@@ -1,6 +1,7 @@
 #include "rollwave/study/convergence.h"
 
 #include "rollwave/adapt/marking.h"
+#include "rollwave/run/quantities.h"
 
 #include <deal.II/base/convergence_table.h>
 
@@ -14,13 +15,14 @@ namespace rollwave {
 
 namespace {
 
-/// Errors by their names in study.csv, with their titles.
-const std::vector<std::pair<std::string, std::string>> errors = {
-    {"error_relative", "energy norm"},
-    {"certified_relative", "certified"},
-    {"error_l2_norm", "L2 norm"},
-    {"error_pressure", "pressure"},
-    {"error_force", "F"}};
+/// The errors whose orders are reported.
+std::vector<ResultQuantity> errors() {
+  std::vector<ResultQuantity> errors;
+  for (const ResultQuantity& quantity : result_quantities())
+    if (quantity.shown & Shown::orders)
+      errors.push_back(quantity);
+  return errors;
+}
 
 struct Fit {
   double slope, spread;
@@ -47,8 +49,8 @@ Fit fit(const std::vector<double>& x, const std::vector<double>& y) {
 std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   std::vector<unsigned int> meshes;
   for (const unsigned int run : family.runs)
-    if (const auto unknowns = study.figure(run, "dofs");
-        unknowns && (meshes.empty() || unknowns != study.figure(meshes.back(), "dofs")))
+    if (const auto unknowns = study.value(run, "mesh.dofs");
+        unknowns && (meshes.empty() || unknowns != study.value(meshes.back(), "mesh.dofs")))
       meshes.push_back(run);
   return meshes;
 }
@@ -57,23 +59,25 @@ std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
 bool is_known(const Study& study, const std::vector<unsigned int>& meshes,
               const std::string& error) {
   return std::all_of(meshes.begin(), meshes.end(),
-                     [&](unsigned int run) { return study.figure(run, error).value_or(0) > 0; });
+                     [&](unsigned int run) { return study.value(run, error).value_or(0) > 0; });
 }
 
 /// The errors on all meshes with their orders from one to the next.
 void print_errors(std::ostream& out, const Study& study, const std::vector<unsigned int>& meshes) {
   dealii::ConvergenceTable table;
   for (const unsigned int run : meshes)
-    table.add_value("N", static_cast<unsigned int>(*study.figure(run, "dofs")));
-  for (const auto& [name, title] : errors)
+    table.add_value("N", static_cast<unsigned int>(*study.value(run, "mesh.dofs")));
+  for (const ResultQuantity& error : errors()) {
+    const std::string &name = error.name, title = error.symbol;
     if (is_known(study, meshes, name)) {
       for (const unsigned int run : meshes)
-        table.add_value(title, *study.figure(run, name));
+        table.add_value(title, *study.value(run, name));
       table.set_precision(title, 3);
       table.set_scientific(title, true);
       table.evaluate_convergence_rates(title, "N", dealii::ConvergenceTable::reduction_rate_log2,
                                        2);
     }
+  }
   std::ostringstream text; // where deal.II cannot write, it throws
   table.write_text(text, dealii::TableHandler::table_with_headers);
   out << text.str();
@@ -83,22 +87,24 @@ void print_errors(std::ostream& out, const Study& study, const std::vector<unsig
 void print_fits(std::ostream& out, const Study& study, std::vector<unsigned int> meshes) {
   constexpr std::size_t most_meshes = 4;
   meshes.erase(meshes.begin(), meshes.end() - std::min(most_meshes, meshes.size()));
-  const auto expected = study.figure(meshes.back(), "expected_order");
+  const auto expected = study.value(meshes.back(), "error.expected_order");
   std::string separator = "Fitted: ";
-  for (const auto& [name, title] : errors)
+  for (const ResultQuantity& error : errors()) {
+    const std::string &name = error.name, title = error.symbol;
     if (is_known(study, meshes, name)) {
       std::vector<double> x, y;
       for (const unsigned int run : meshes) {
-        x.push_back(std::log(*study.figure(run, "dofs")) / 2);
-        y.push_back(-std::log(*study.figure(run, name)));
+        x.push_back(std::log(*study.value(run, "mesh.dofs")) / 2);
+        y.push_back(-std::log(*study.value(run, name)));
       }
       const Fit order = fit(x, y);
       out << separator << title << ' ' << std::setprecision(3) << order.slope << " +- "
           << std::setprecision(1) << std::round(1000 * order.spread) / 1000 << std::setprecision(6);
-      if (name == "error_relative" && expected)
+      if (name == "error.exact_relative" && expected)
         out << " (expected " << *expected << ')';
       separator = ", ";
     }
+  }
   out << '\n';
 }
 
@@ -125,8 +131,9 @@ std::vector<Family> find_families(const Study& study) {
 void report_orders(std::ostream& out, const Study& study) {
   for (const Family& family : find_families(study)) {
     const auto meshes = meshes_of(study, family);
-    const bool has_errors = std::any_of(errors.begin(), errors.end(), [&](const auto& error) {
-      return is_known(study, meshes, error.first);
+    const auto all = errors();
+    const bool has_errors = std::any_of(all.begin(), all.end(), [&](const auto& error) {
+      return is_known(study, meshes, error.name);
     });
     if (meshes.size() < 2 || !has_errors)
       continue;

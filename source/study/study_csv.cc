@@ -1,6 +1,7 @@
 #include "rollwave/study/study_csv.h"
 
 #include "rollwave/base/text.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
 #include <algorithm>
@@ -57,9 +58,9 @@ StudyRun read_run(const std::vector<std::string>& fields, std::size_t n_key_fiel
   run.failure = *field++;
   run.remarks = split(*field++, '|');
   run.files = *field++;
-  run.figures = figures_of(Result{});
-  for (Figure& figure : run.figures) {
-    figure.value = field->empty() ? not_known : std::strtod(field->c_str(), nullptr);
+  for (const ResultQuantity& quantity : result_quantities()) {
+    if (!field->empty())
+      run.values[quantity.name] = std::strtod(field->c_str(), nullptr);
     ++field;
   }
   run.shared = *field;
@@ -74,8 +75,8 @@ std::string csv_header(const Study& study) {
   for (const Setting& setting : plan.varied)
     line += setting.path() + ',';
   line += "solved,published_steps,reference,failure,remarks,files";
-  for (const Figure& figure : figures_of(Result{}))
-    line += ',' + figure.name + study.units().in_brackets(figure.quantity);
+  for (const ResultQuantity& quantity : result_quantities())
+    line += ',' + quantity.name + study.units().in_brackets(quantity.quantity);
   return line + ",shared\n";
 }
 
@@ -89,8 +90,8 @@ std::string csv_row(const Study& study, unsigned int number) {
                      (plan.published_steps ? std::to_string(*plan.published_steps) : "");
   for (const std::string& text : {run.reference, run.failure, remarks, run.files})
     line += ',' + csv_field(text);
-  for (const Figure& figure : figures_of(Result{})) {
-    const auto value = run.figure(figure.name);
+  for (const ResultQuantity& quantity : result_quantities()) {
+    const auto value = study.value(number, quantity.name);
     line += ',' + (value ? shortest_text(*value) : "");
   }
   return line + ',' + csv_field(run.shared) + '\n';

@@ -3,6 +3,7 @@
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
@@ -12,6 +13,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -23,6 +25,8 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers that a key takes in all runs, without entries where one of its values is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
@@ -60,10 +64,10 @@ std::string title_of(const Study& study) {
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 
-/// For each choice of all keys but those that vary fastest a curve of a figure over the first of
-/// these, with that of another as marks.
+/// A curve of a quantity over the first of the keys that vary fastest, for each choice of the other
+/// keys; another quantity gives the marks.
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
-                             const std::string& figure, const std::string& marks = "") {
+                             const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
@@ -73,9 +77,9 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The keys before them change together with the text.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], study.figure(run, figure).value_or(not_known));
-    if (study.has(marks))
-      curves.back().marks.emplace_back(x[run], study.figure(run, marks).value_or(not_known));
+    curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(not_known));
+    if (!marks.empty() && study.has(marks))
+      curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(not_known));
   }
   return curves;
 }
@@ -84,18 +88,15 @@ std::string x_label_of(const Study& study) {
   return words(study.plans.front().varied[study.first_keys.back()], study.units());
 }
 
-/// Loads, stiffness, half-width and pressure over the key that varies fastest.
+/// The quantities for curves over the key that varies fastest.
 std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
   std::vector<Panel> panels;
-  for (const auto& [figure, name, quantity] :
-       {std::tuple("force", "contact force F", Quantity::force),
-        {"vertical_load", "vertical load", Quantity::force},
-        {"work_conjugate_load", "work-conjugate load G", Quantity::force},
-        {"stiffness_vertical_load", "vertical stiffness", Quantity::stiffness},
-        {"half_width", "half-width of contact (angle)", Quantity::angle},
-        {"peak_pressure", "peak pressure", Quantity::pressure}})
-    panels.push_back({x_label_of(study), name + study.units().in_brackets(quantity),
-                      curves_of(study, x, figure)});
+  for (const ResultQuantity& quantity : result_quantities())
+    if (quantity.shown & Shown::curve)
+      panels.push_back({x_label_of(study),
+                        quantity.words + (quantity.symbol.empty() ? "" : ' ' + quantity.symbol) +
+                            study.units().in_brackets(quantity.quantity),
+                        curves_of(study, x, quantity.name)});
   return panels;
 }
 
@@ -106,13 +107,13 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   Panel panel{x_label, "relative error in the energy norm", {}, true, true};
   std::set<double> slopes;
   for (const Family& family : find_families(study)) {
-    if (x == "h_max" && family.is_adaptive)
+    if (x == "mesh.h_max" && family.is_adaptive)
       continue;
     Curve curve{family.name, {}};
     for (const unsigned int run : family.runs) {
-      if (study.figure(run, x) && study.figure(run, "error_relative"))
-        curve.points.emplace_back(*study.figure(run, x), *study.figure(run, "error_relative"));
-      if (const auto order = study.figure(run, "expected_order"); order && order_factor != 0)
+      if (study.value(run, x) && study.value(run, "error.exact_relative"))
+        curve.points.emplace_back(*study.value(run, x), *study.value(run, "error.exact_relative"));
+      if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
         slopes.insert(order_factor * *order);
     }
     std::sort(curve.points.begin(), curve.points.end());
@@ -151,7 +152,7 @@ std::optional<Picture> map_of_load(const Study& study) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
     lines.back().push_back(
-        {{x[run], y[run], study.figure(run, "vertical_load").value_or(not_known)}});
+        {{x[run], y[run], study.value(run, "contact.vertical_load").value_or(not_known)}});
   }
   const Units units = study.units();
   return plot_map(title_of(study), words(varied[0], units),
@@ -181,15 +182,15 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
             ? ""
             : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
   }
-  if (study.has("error_relative") && find_families(study).size() < study.plans.size())
+  if (study.has("error.exact_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
-         {std::tuple("study-h", "h_max", "largest diameter of a cell h", 1.),
-          {"study-unknowns", "dofs", "unknowns", -0.5},
-          {"study-time", "seconds", "seconds", 0.}})
+         {std::tuple("study-h", "mesh.h_max", "largest diameter of a cell h", 1.),
+          {"study-unknowns", "mesh.dofs", "unknowns", -0.5},
+          {"study-time", "seconds.total", "seconds", 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())
     add("study", {{x_label_of(study), "contact steps",
-                   curves_of(study, x, "contact_steps", "published_steps"), false, true}});
+                   curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
 }
 
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as

@@ -135,9 +135,8 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
     parameters.output.files = study.study.files_of_each_run;
     write_results(directory / run.files, parameters, *solution);
   }
-  const Result in_units = in_users_units(result, solution->scene.units);
-  run.figures = figures_of(in_units);
-  run.pressure = pressure_of(in_units);
+  run.values = values_of(result, solution->scene.units);
+  run.pressure = pressure_of(result, solution->scene.units);
   run.failure = shortfall_text(result);
   run.remarks = result.remarks;
 }

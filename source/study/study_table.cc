@@ -1,6 +1,7 @@
 #include "rollwave/study/study_table.h"
 
 #include "rollwave/base/text.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 
@@ -12,7 +13,6 @@
 #include <map>
 #include <ostream>
 #include <sstream>
-#include <tuple>
 
 namespace rollwave {
 
@@ -39,17 +39,13 @@ dealii::TableHandler make_table(const Study& study,
       add("scene", study.plans[run].scene);
     for (const Setting& setting : study.plans[run].varied)
       add(setting.key, setting.value);
-    for (const auto& [figure, title, digits] :
-         {std::tuple("dofs", std::string("N"), 9),
-          {"contact_steps", "steps", 9},
-          {"published_steps", "published", 9},
-          {"error_relative", "error", 3},
-          {"certified_relative", "certified", 3},
-          {"force", "F" + units.in_brackets(Quantity::force), 9},
-          {"seconds", "seconds", 3}})
-      if (study.has(figure)) {
-        const auto value = study.figure(run, figure);
-        add(title, value ? rounded(*value, digits) : "");
+    if (study.has("published_steps"))
+      add("published", std::to_string(study.plans[run].published_steps.value_or(0)));
+    for (const ResultQuantity& quantity : result_quantities())
+      if ((quantity.shown & Shown::table) && study.has(quantity.name)) {
+        const auto value = study.value(run, quantity.name);
+        add(quantity.symbol + units.in_brackets(quantity.quantity),
+            value ? rounded(*value, quantity.digits) : "");
       }
     add("outcome", outcome_of(*study.runs[run]));
   }
@@ -86,10 +82,10 @@ std::string line_of_run(const Study& study, unsigned int run) {
   std::ostringstream line;
   line << run + 1 << " of " << study.plans.size() << "  "
        << label(study.plans[run], [](const Setting&) { return true; }) << ":  ";
-  if (const auto force = study.figure(run, "force"))
+  if (const auto force = study.value(run, "contact.force"))
     line << "F = " << rounded(*force, 6) << study.units().after(Quantity::force) << ", "
-         << study.figure(run, "contact_steps").value_or(0) << " steps, "
-         << rounded(study.figure(run, "seconds").value_or(0), 3) << " s, ";
+         << study.value(run, "iterations.contact").value_or(0) << " steps, "
+         << rounded(study.value(run, "seconds.total").value_or(0), 3) << " s, ";
   line << outcome_of(*study.runs[run]) << '\n';
   return line.str();
 }
@@ -120,7 +116,7 @@ void print_study_notes(std::ostream& out, const Study& study) {
   out << "\nN: unknowns; steps: of the contact iteration; error, certified: true and bounded, "
          "relative in the\nenergy norm. study.csv has more; its column shared names what seconds "
          "leave out.\n";
-  if (study.has("error_relative"))
+  if (study.has("error.exact_relative"))
     out << "Errors against the semi-analytic solution.\n";
   print_once(out, "Not solved", failures, study.runs.size());
   print_once(out, "Falls short", shortfalls, study.runs.size());

@@ -3,8 +3,9 @@
 
 #include <deal.II/base/timer.h>
 
+#include <map>
+#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -23,10 +24,14 @@ public:
   unsigned int linear_iterations = 0; ///< of that solver
   unsigned long bytes_written = 0;
 
+  /// The names of all phases, in the order in which they follow each other.
+  static const std::vector<std::string>& phase_names();
+
   /// Adds the time until it is destroyed to a phase. The time of a phase within another counts for
   /// the inner one only.
   class Phase {
   public:
+    /// @param name one of phase_names(). @throws std::out_of_range for another
     Phase(Work& work, const std::string& name);
     ~Phase();
     Phase(const Phase&) = delete;
@@ -34,21 +39,19 @@ public:
 
   private:
     Work& work;
-    const std::string name;
+    double& seconds; ///< of the phase
     Phase* const outer;
     double inner_seconds = 0;
     dealii::Timer timer;
   };
 
-  void add_seconds(const std::string& phase, double seconds);
-
-  /// Wall seconds by phase, in the order in which the phases were first entered.
-  const std::vector<std::pair<std::string, double>>& seconds() const { return phases; }
+  /// Wall seconds of a phase; nullopt if it has not been entered.
+  std::optional<double> seconds(const std::string& phase) const;
   double total_seconds() const;
 
 private:
-  std::vector<std::pair<std::string, double>> phases;
-  Phase* innermost = nullptr; ///< the phase that is going on
+  std::map<std::string, double> seconds_of; ///< phases that have been entered
+  Phase* innermost = nullptr;               ///< the phase that is going on
 };
 
 } // namespace rollwave

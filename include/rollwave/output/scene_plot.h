@@ -8,7 +8,6 @@
 namespace rollwave {
 
 /// The scene; the surroundings of the contact at true scale; gap and pressure over the angle there.
-/// @param result in the user's units
 Picture plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave

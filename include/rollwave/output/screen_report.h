@@ -14,12 +14,10 @@ namespace rollwave {
 /// Says what will be solved.
 void report_scene(std::ostream& out, const Scene& scene, const Parameters& parameters);
 
-/// Tells what a run has found: mesh, a line for each contact step, results and residuals.
-/// @param result in the user's units, which @p units name
+/// Prints the mesh, a line for each contact step, the results in the user's units, and residuals.
 void report_result(std::ostream& out, const Result& result, const Units& units);
 
-/// Prints our numbers beside the exact ones, with their differences, in the user's units.
-/// @param result in those of the scene
+/// Prints the numbers of @p result next to the exact ones, in the user's units.
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
                          const ExactSolution& exact);
 

@@ -9,8 +9,8 @@
 
 namespace rollwave {
 
-/// All numbers of a run as JSON, in full precision: scene, mesh, contact, energy, residuals,
-/// iterations, work, seconds and peak_memory_mib.
+/// All result_quantities() of a run as JSON in the user's units, in full precision, with the scene,
+/// the patches, and a line for each mesh.
 std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result);
 
 } // namespace rollwave

@@ -13,7 +13,7 @@ namespace rollwave {
 
 /// What the user asked for.
 struct CommandLine {
-  enum class Action { run, help, version, parameters };
+  enum class Action { run, help, version, parameters, quantities };
   Action action = Action::run;
   std::filesystem::path file;    ///< the parameter file to run
   bool verify = false;           ///< compare with the exact solution

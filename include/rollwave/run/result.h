@@ -47,10 +47,6 @@ struct Residuals {
   double negative_pressure; ///< max (-lambda_i)^+ / max |lambda_i|
   double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
 
-  /// What equilibrium comes to when u is rounded, of which no solver can do better: |K (d u)|_2
-  /// over the same forces, d being a rounding error of random sign for each unknown.
-  double round_off;
-
   /// The largest of the four.
   double largest() const;
 };
@@ -99,7 +95,7 @@ struct SurfacePoint {
   double displacement;
 };
 
-/// All numbers of one solved scene, in its units.
+/// All results of one solved scene, in its units; result_quantities() lists the numbers.
 struct Result {
   MeshFigures mesh;
   double road_distance; ///< c, a length
@@ -125,9 +121,6 @@ struct Result {
 
 /// The shortfalls with "; " between them.
 std::string shortfall_text(const Result& result);
-
-/// The same in the user's units, of which @p units are those of the scene.
-Result in_users_units(Result result, const Units& units);
 
 } // namespace rollwave
 

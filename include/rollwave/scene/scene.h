@@ -60,7 +60,7 @@ struct RoadOptions {
  * Lengths are in a unit of the scene's own, a power of two, so that b is near 1 in it however long
  * the user's lengths are: nothing overflows, and a scene scaled by a power of two has the same
  * numbers to the last bit. The shear modulus, the wave speed and the width are 1 as well. What is
- * computed from a scene is in its units; in_users_units() leads back.
+ * computed from a scene is in its units; Scene::units leads back.
  */
 struct Scene {
   double inner_radius;     ///< a, a length

@@ -28,6 +28,7 @@ struct MaterialOptions {
 /// What a number of the program measures.
 enum class Quantity {
   number,
+  count, ///< of things, a whole number
   angle, ///< in radians
   length,
   area,

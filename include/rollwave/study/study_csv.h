@@ -8,10 +8,10 @@
 namespace rollwave {
 
 /// The first line of study.csv: `scene` where there are several, the varied keys, `solved`,
-/// `published_steps`, `reference`, `failure`, `remarks`, `files`, the figures, `shared`.
+/// `published_steps`, `reference`, `failure`, `remarks`, `files`, result_quantities(), `shared`.
 std::string csv_header(const Study& study);
 
-/// The line of a run that has ended, with all digits of its figures.
+/// The line of a run that has ended, with all digits of its values.
 std::string csv_row(const Study& study, unsigned int run);
 
 /// Takes over the solved runs from the text of study.csv of the same study; a line that is not

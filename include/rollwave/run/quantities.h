@@ -1,0 +1,53 @@
+#ifndef ROLLWAVE_RUN_QUANTITIES_H
+#define ROLLWAVE_RUN_QUANTITIES_H
+
+#include "rollwave/run/result.h"
+#include "rollwave/scene/units.h"
+
+#include <functional>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// Places other than summary.json and study.csv, which show every quantity. A quantity may have
+/// several of these flags.
+struct Shown {
+  enum : unsigned int {
+    screen = 1, ///< the report of a single run
+    table = 2,  ///< study.txt and study.tex
+    orders = 4, ///< the orders of convergence of a study
+    curve = 8   ///< study-curves.svg
+  };
+};
+
+/// One number of a result.
+struct ResultQuantity {
+  std::string name;   ///< in summary.json, where a dot leads into an object, and in study.csv
+  std::string words;  ///< such as "contact force"
+  std::string symbol; ///< such as "F", the head of a column in tables; may be empty
+  Quantity quantity;
+  unsigned int shown;  ///< flags of Shown
+  unsigned int digits; ///< significant ones on the screen and in tables
+
+  /// The number in the units of the scene: nullopt where the run was not asked for it, not a number
+  /// where it is not known.
+  std::function<std::optional<double>(const Result&)> value;
+
+  std::optional<double> in_users_units(const Result& result, const Units& units) const;
+};
+
+/// All numbers of a result, in the order in which they are shown.
+const std::vector<ResultQuantity>& result_quantities();
+
+/// The quantity of a name. @throws std::out_of_range
+const ResultQuantity& result_quantity(const std::string& name);
+
+/// Prints all quantities as a table in Markdown.
+void print_quantities(std::ostream& out);
+
+} // namespace rollwave
+
+#endif

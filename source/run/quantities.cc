@@ -1,0 +1,269 @@
+#include "rollwave/run/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+
+namespace rollwave {
+
+namespace {
+
+using Quantities = std::vector<ResultQuantity>;
+
+constexpr unsigned int all_digits = 9;
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A number of a part that results may lack.
+template <typename Part>
+auto of(std::optional<Part> Result::*part, double Part::*number) {
+  return [part, number](const Result& result) {
+    return result.*part ? std::optional((*(result.*part)).*number) : std::nullopt;
+  };
+}
+
+/// The same where the part may lack the number.
+template <typename Part>
+auto of(std::optional<Part> Result::*part, std::optional<double> Part::*number) {
+  return [part, number](const Result& result) {
+    return result.*part ? (*(result.*part)).*number : std::nullopt;
+  };
+}
+
+Quantities mesh_quantities() {
+  return {
+      {"scene.road_distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
+       [](const Result& r) { return r.road_distance; }},
+      {"mesh.degree", "degree of the elements", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.mesh.degree; }},
+      {"mesh.cells", "cells", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.mesh.cells; }},
+      {"mesh.dofs", "unknowns", "N", Quantity::count, Shown::table, all_digits,
+       [](const Result& r) { return r.mesh.dofs; }},
+      {"mesh.contact_nodes", "nodes in the zone of possible contact", "", Quantity::count, 0,
+       all_digits, [](const Result& r) { return r.mesh.contact_nodes; }},
+      {"mesh.h_min", "smallest diameter of a cell in (r, b z)", "", Quantity::length, 0, all_digits,
+       [](const Result& r) { return r.mesh.h_min; }},
+      {"mesh.h_max", "largest diameter of a cell h", "", Quantity::length, 0, all_digits,
+       [](const Result& r) { return r.mesh.h_max; }},
+  };
+}
+
+Quantities load_quantities() {
+  return {
+      {"contact.vertical_load", "vertical load", "", Quantity::force, Shown::screen | Shown::curve,
+       all_digits, [](const Result& r) { return r.patch.vertical_load; }},
+      {"contact.force", "contact force", "F", Quantity::force,
+       Shown::screen | Shown::table | Shown::curve, all_digits,
+       [](const Result& r) { return r.patch.force; }},
+      {"contact.work_conjugate_load", "work-conjugate load -dJ/dc", "G", Quantity::force,
+       Shown::screen | Shown::curve, all_digits,
+       [](const Result& r) { return r.patch.work_conjugate_load; }},
+      {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
+       Quantity::force, 0, all_digits, of(&Result::load_bounds, &Bounds::lower)},
+      {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
+       Quantity::force, 0, all_digits, of(&Result::load_bounds, &Bounds::upper)},
+      {"contact.distance_lower_bound", "guaranteed lower bound of c", "", Quantity::length, 0,
+       all_digits, of(&Result::distance_bounds, &Bounds::lower)},
+      {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
+       all_digits, of(&Result::distance_bounds, &Bounds::upper)},
+      {"contact.stiffness.vertical_load", "vertical stiffness -d(load)/dc", "", Quantity::stiffness,
+       Shown::screen | Shown::curve, 4, [](const Result& r) { return r.patch.stiffness.vertical; }},
+      {"contact.stiffness.force", "stiffness -dF/dc", "", Quantity::stiffness, 0, 4,
+       [](const Result& r) { return r.patch.stiffness.total; }},
+      {"contact.stiffness.work_conjugate_load", "stiffness -dG/dc", "", Quantity::stiffness, 0, 4,
+       [](const Result& r) { return r.patch.stiffness.work_conjugate; }},
+  };
+}
+
+Quantities contact_quantities() {
+  return {
+      {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
+       Shown::screen | Shown::curve, all_digits,
+       [](const Result& r) { return r.patch.peak_pressure; }},
+      {"contact.half_width", "half-width of a single patch", "", Quantity::angle, Shown::curve,
+       all_digits,
+       [](const Result& r) {
+         return r.patch.patches.size() < 2 ? r.patch.half_width() : not_known;
+       }},
+      {"contact.left_end", "begin of the first patch", "", Quantity::angle, 0, all_digits,
+       [](const Result& r) { return r.patch.ends ? r.patch.ends->first : not_known; }},
+      {"contact.right_end", "end of the last patch", "", Quantity::angle, 0, all_digits,
+       [](const Result& r) { return r.patch.ends ? r.patch.ends->second : not_known; }},
+      {"contact.length", "length of the road in contact", "", Quantity::length, 0, all_digits,
+       [](const Result& r) {
+         double length = 0;
+         for (const ContactPatch& patch : r.patch.patches)
+           length += patch.length;
+         return length;
+       }},
+      {"contact.patch_count", "patches", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.patch.patches.size(); }},
+      {"contact.active_nodes", "nodes in contact", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.patch.active_nodes; }},
+  };
+}
+
+Quantities energy_quantities() {
+  return {
+      {"energy.value", "energy J(u_h)", "J", Quantity::energy, Shown::screen, all_digits,
+       [](const Result& r) { return r.energy.value; }},
+      {"energy.norm_squared", "a(u_h, u_h)", "", Quantity::energy, 0, all_digits,
+       [](const Result& r) { return r.energy.norm_squared; }},
+      {"energy.lower_bound", "guaranteed lower bound of J(u)", "", Quantity::energy, 0, all_digits,
+       of(&Result::certified, &CertifiedError::lower_bound)},
+      {"energy.upper_bound", "guaranteed upper bound of J(u)", "", Quantity::energy, 0, all_digits,
+       of(&Result::certified, &CertifiedError::upper_bound)},
+      {"error.certified_energy_norm", "guaranteed bound of the error in the energy norm", "",
+       Quantity::energy_norm, 0, 3, of(&Result::certified, &CertifiedError::energy_norm)},
+      {"error.certified_relative", "the same over the energy norm of u", "certified",
+       Quantity::number, Shown::table | Shown::orders, 3,
+       of(&Result::certified, &CertifiedError::relative)},
+      {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
+       0, 3, of(&Result::certified, &CertifiedError::force_data)},
+      {"error.force_sampled_width", "features of the force that are smaller may be undetected", "",
+       Quantity::length, 0, 3,
+       [](const Result& r) -> std::optional<double> {
+         if (!r.certified)
+           return {};
+         return r.certified->sampled_width > 0 ? r.certified->sampled_width : not_known;
+       }},
+  };
+}
+
+/// Errors against the exact solution.
+Quantities error_quantities() {
+  const auto if_resolved = [](auto number) {
+    return [number](const Result& r) {
+      return r.errors && r.errors->is_resolved ? number(r) : std::nullopt;
+    };
+  };
+  return {
+      {"error.exact_energy_norm", "true error in the energy norm", "", Quantity::energy_norm, 0, 3,
+       if_resolved(of(&Result::errors, &TrueErrors::energy_norm))},
+      {"error.exact_relative", "the same over the energy norm of u", "error", Quantity::number,
+       Shown::table | Shown::orders, 3,
+       if_resolved(of(&Result::errors, &TrueErrors::relative_energy_norm))},
+      {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,
+       of(&Result::errors, &TrueErrors::l2_norm)},
+      {"error.exact_pressure", "true error of the pressure in the norm of [.,.]_h", "pressure",
+       Quantity::pressure_norm, Shown::orders, 3, of(&Result::errors, &TrueErrors::pressure)},
+      {"error.exact_force", "true error of F", "error of F", Quantity::force, Shown::orders, 3,
+       of(&Result::errors, &TrueErrors::force)},
+      {"error.exact_energy", "true error of J", "", Quantity::energy, 0, 3,
+       of(&Result::errors, &TrueErrors::energy)},
+      {"error.exact_half_width", "true error of the half-width", "", Quantity::angle, 0, 3,
+       of(&Result::errors, &TrueErrors::half_width)},
+      {"error.exact_distance", "true error of the distance for a given load", "", Quantity::length,
+       0, 3,
+       [](const Result& r) -> std::optional<double> {
+         if (!r.errors || !r.errors->exact_distance)
+           return {};
+         return std::abs(*r.errors->exact_distance - r.road_distance);
+       }},
+      {"error.exact_feasible_energy_norm", "true error of the feasible displacement", "",
+       Quantity::energy_norm, 0, 3,
+       if_resolved(of(&Result::errors, &TrueErrors::admissible_energy_norm))},
+      {"error.effectivity", "bound over the error that the energies give", "", Quantity::number, 0,
+       3, of(&Result::errors, &TrueErrors::effectivity)},
+      {"error.expected_order", "expected order of the energy norm in N^(-1/2)", "",
+       Quantity::number, 0, 3, of(&Result::errors, &TrueErrors::expected_order)},
+  };
+}
+
+Quantities residual_quantities() {
+  return {
+      {"residuals.equilibrium", "equilibrium", "", Quantity::number, 0, 2,
+       [](const Result& r) { return r.residuals.equilibrium; }},
+      {"residuals.penetration", "penetration", "", Quantity::number, 0, 2,
+       [](const Result& r) { return r.residuals.penetration; }},
+      {"residuals.negative_pressure", "negative pressure", "", Quantity::number, 0, 2,
+       [](const Result& r) { return r.residuals.negative_pressure; }},
+      {"residuals.complementarity", "complementarity", "", Quantity::number, 0, 2,
+       [](const Result& r) { return r.residuals.complementarity; }},
+  };
+}
+
+Quantities work_quantities() {
+  Quantities all = {
+      {"iterations.meshes", "meshes", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.cycles.size(); }},
+      {"iterations.contact", "contact steps on the last mesh", "steps", Quantity::count,
+       Shown::table, all_digits, [](const Result& r) { return r.history.size(); }},
+      {"iterations.rho", "step length of Uzawa's method", "", Quantity::force_density, 0,
+       all_digits, [](const Result& r) { return r.rho > 0 ? std::optional(r.rho) : std::nullopt; }},
+      {"iterations.linear", "iterations of conjugate gradients", "", Quantity::count, 0, all_digits,
+       [](const Result& r) { return r.work.linear_iterations; }},
+  };
+  const auto add_count = [&all](const std::string& name, const std::string& words, auto count) {
+    all.push_back({"work." + name, words, "", Quantity::count, 0, all_digits,
+                   [count](const Result& r) { return r.work.*count; }});
+  };
+  add_count("load_assemblies", "assemblies of the load", &Work::load_assemblies);
+  add_count("stiffness_assemblies", "assemblies of the stiffness", &Work::stiffness_assemblies);
+  add_count("orderings", "symbolic analyses of sparse matrices", &Work::orderings);
+  add_count("factorisations", "factorisations of sparse matrices", &Work::factorisations);
+  add_count("dense_factorisations", "factorisations of dense matrices",
+            &Work::dense_factorisations);
+  add_count("forward_substitutions", "forward substitutions", &Work::forward_substitutions);
+  add_count("back_substitutions", "back substitutions", &Work::back_substitutions);
+  add_count("preconditioners", "preconditioners set up", &Work::preconditioners);
+  add_count("bytes_written", "bytes written except those of summary.json", &Work::bytes_written);
+  for (const std::string& phase : Work::phase_names())
+    all.push_back({"seconds." + phase, "seconds of the phase " + phase, "", Quantity::number, 0, 3,
+                   [phase](const Result& r) { return r.work.seconds(phase); }});
+  all.push_back({"seconds.total", "seconds", "seconds", Quantity::number, Shown::table, 3,
+                 [](const Result& r) { return r.work.total_seconds(); }});
+  all.push_back({"peak_memory_mib", "largest memory of a process in MiB", "", Quantity::number, 0,
+                 4, [](const Result& r) { return r.peak_memory_mib; }});
+  return all;
+}
+
+} // namespace
+
+std::optional<double> ResultQuantity::in_users_units(const Result& result,
+                                                     const Units& units) const {
+  const std::optional<double> number = value(result);
+  return number ? std::optional(*number * units.of(quantity)) : std::nullopt;
+}
+
+const std::vector<ResultQuantity>& result_quantities() {
+  static const Quantities all = [] {
+    Quantities quantities;
+    for (const Quantities& some :
+         {mesh_quantities(), load_quantities(), contact_quantities(), energy_quantities(),
+          error_quantities(), residual_quantities(), work_quantities()})
+      quantities.insert(quantities.end(), some.begin(), some.end());
+    return quantities;
+  }();
+  return all;
+}
+
+const ResultQuantity& result_quantity(const std::string& name) {
+  const auto& all = result_quantities();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&name](const auto& quantity) { return quantity.name == name; });
+  if (found == all.end())
+    throw std::out_of_range(name);
+  return *found;
+}
+
+void print_quantities(std::ostream& out) {
+  Units units; // whose names are the dimensions
+  units.material.unit_names = {"length", "time", "force"};
+  out << "| name | meaning | symbol | unit | shown |\n|---|---|---|---|---|\n";
+  for (const ResultQuantity& quantity : result_quantities()) {
+    out << "| `" << quantity.name << "` | " << quantity.words << " | " << quantity.symbol << " | "
+        << units.unit(quantity.quantity).name << " |";
+    for (const auto& [flag, place] : {std::pair(Shown::screen, "screen"),
+                                      {Shown::table, "study.txt"},
+                                      {Shown::orders, "orders"},
+                                      {Shown::curve, "curves"}})
+      if (quantity.shown & flag)
+        out << ' ' << place;
+    out << " |\n";
+  }
+}
+
+} // namespace rollwave
