@@ -43,7 +43,7 @@ void verify(Solution& solution, std::ostream& out) {
   const Scene& scene = solution.scene;
   std::string why;
   if (const auto exact = find_exact_solution(scene, &why)) {
-    solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
+    solution.result.errors = measure_true_errors(solution.space(), solution.displacement,
                                                  solution.result, solution.certificate, *exact);
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
@@ -66,7 +66,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
   const WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) {
     attempt([&] { verify(solution, out); }, "the result could not be verified",
-            "leave out --verify", communicator, solution.result);
+            "leave out --verify", communicator, solution.result.shortfalls);
     write_summary(directory, parameters, solution);
   }
   report_end(out, solution.result.work, written);

@@ -49,7 +49,7 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
 
 /// Everything from ordering and triplets to the displacement field, without assembly.
 double contact_seconds(const Scene& scene, const Parameters& parameters) {
-  const Discretisation ring(scene, parameters); // whose order of elimination is yet to be found
+  const MeshAndSpace ring(scene, parameters); // whose order of elimination is yet to be found
   Work work;
   DirectSolver solver(ring.space);
   solver.set_problem(scene, {}, work);
@@ -69,7 +69,7 @@ double median(std::vector<double> values) {
 void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& mesh) {
   const Parameters parameters = with(paper.parameters(), mesh);
   const Scene scene = make_scene(parameters);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   SparseCholesky cholesky(ring.space);
   cholesky.number_unknowns(ring.space.constraints());
   const LowerTriplets triplets =

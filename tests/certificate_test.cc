@@ -62,7 +62,7 @@ TEST(Certificate, HoldsForRandomScenes) {
                          1e-13 * std::abs(exact->norm_squared);
     EXPECT_LE(certified.lower_bound, exact->energy + floor);
     EXPECT_GE(certified.upper_bound, exact->energy - floor);
-    const TrueErrors errors = measure_true_errors(*solution.space, solution.displacement,
+    const TrueErrors errors = measure_true_errors(solution.space(), solution.displacement,
                                                   solution.result, solution.certificate, *exact);
     EXPECT_GE(certified.energy_norm * (1 + 1e-6) + 1e-6 * std::sqrt(exact->norm_squared),
               *errors.admissible_energy_norm);
@@ -95,7 +95,7 @@ TEST(Certificate, HoldsForHigherDegrees) {
       const CertifiedError& certified = *solution.result.certified;
       EXPECT_LE(certified.lower_bound, exact->energy) << degree;
       EXPECT_GE(certified.upper_bound, exact->energy) << degree;
-      const TrueErrors errors = measure_true_errors(*solution.space, solution.displacement,
+      const TrueErrors errors = measure_true_errors(solution.space(), solution.displacement,
                                                     solution.result, solution.certificate, *exact);
       EXPECT_GE(certified.energy_norm, *errors.admissible_energy_norm) << degree;
       EXPECT_LE(*errors.effectivity, degree < 8 ? 6 : 12) << degree << " " << cycles;
@@ -173,7 +173,7 @@ TEST(Certificate, IsSharpInThinRings) {
           EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
           EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
           const TrueErrors errors =
-              measure_true_errors(*solution.space, solution.displacement, solution.result,
+              measure_true_errors(solution.space(), solution.displacement, solution.result,
                                   solution.certificate, *exact);
           const bool is_fine_adaptive =
               solution.result.cycles.size() > 1 && solution.result.mesh.dofs > 1000;
@@ -222,7 +222,7 @@ TEST(Certificate, BoundsScenesWithUnevenOrSingularContact) {
                "Mesh/Angular cells=50", "Mesh/Adaptive cycles=" + std::to_string(cycles)});
           const Solution solution = simulate(made.scene, parameters);
           const TrueErrors errors =
-              measure_true_errors(*solution.space, solution.displacement, solution.result,
+              measure_true_errors(solution.space(), solution.displacement, solution.result,
                                   solution.certificate, made.exact);
           SCOPED_TRACE(testing::Message() << "omega " << omega << " cut " << is_cut << " degree "
                                           << degree << " cycles " << cycles);

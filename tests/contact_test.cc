@@ -96,7 +96,7 @@ struct FullCircle {
 
   Parameters parameters;
   Scene scene;
-  Discretisation ring;
+  MeshAndSpace ring;
   Work work;
   DirectSolver solver;
   ContactProblem problem;
@@ -135,7 +135,7 @@ struct Prepared {
   }
 
   Scene scene;
-  Discretisation ring;
+  MeshAndSpace ring;
   std::optional<FieldVector> load;
   Work work;
   DirectSolver solver;

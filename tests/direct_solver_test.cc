@@ -57,14 +57,14 @@ double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
 TEST(CholmodFactor, RingOfManyLayersHasTheFactorOfABand) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=2000", "Mesh/Angular cells=8"});
   const Scene scene = make_scene(parameters);
-  EXPECT_LE(factor_entries_per_unknown(Discretisation(scene, parameters).space, scene), 6 * 8);
+  EXPECT_LE(factor_entries_per_unknown(MeshAndSpace(scene, parameters).space, scene), 6 * 8);
 }
 
 // Around a point each level of cells is the same, so that the factor grows with their number.
 TEST(CholmodFactor, DeepMeshHasTheFactorOfAShallowOne) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=4", "Mesh/Angular cells=16"});
   const Scene scene = make_scene(parameters);
-  Discretisation ring(scene, parameters);
+  MeshAndSpace ring(scene, parameters);
   std::vector<double> entries;
   for (int level = 1; level <= 20; ++level) {
     for (const auto& cell : ring.triangulation->active_cell_iterators())
@@ -151,7 +151,7 @@ protected:
 
   const Parameters parameters;
   const Scene scene;
-  const Discretisation ring;
+  const MeshAndSpace ring;
   const std::optional<FieldVector> load;
   Work work;
   DirectSolver solver;

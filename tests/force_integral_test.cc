@@ -46,7 +46,7 @@ struct OnMesh {
 
   const Parameters parameters;
   const Scene scene;
-  const Discretisation mesh;
+  const MeshAndSpace mesh;
   RadialShapesOfMesh shapes;
   const ForceIntegral integral;
 };

@@ -5,8 +5,8 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/mesh/assembly.h"
+#include "rollwave/run/measure.h"
 #include "rollwave/run/simulation.h"
-#include "rollwave/run/solve_on_mesh.h"
 #include "rollwave/solver/amg_cg.h"
 #include "rollwave/solver/choose_solver.h"
 #include "test_scenes.h"
@@ -30,14 +30,14 @@ namespace {
 struct Answer {
   Answer(const Scene& scene, const Parameters& parameters, const RingSpace& space,
          const std::string& kind)
-      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {}, system,
-                              result.work)) {
-    measure(space, on_mesh, result);
-  }
+      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {}, cache,
+                              work)),
+        result(measure(space, on_mesh)) {}
 
-  Result result = {};
-  MeshCache system;
+  Work work;
+  MeshCache cache;
   MeshSolution on_mesh;
+  Result result;
 };
 
 void expect_same_answer(const Scene& scene, const Parameters& parameters, const RingSpace& space) {
@@ -59,11 +59,11 @@ void expect_same_answer(const Scene& scene, const Parameters& parameters, const 
   EXPECT_LE(residuals.negative_pressure, 1e-10);
   EXPECT_LE(residuals.complementarity, direct.result.residuals.complementarity + 1e-10);
 
-  EXPECT_GT(iterative.result.work.linear_iterations, 0u);
-  EXPECT_GT(iterative.result.work.preconditioners, 0u);
-  EXPECT_EQ(iterative.result.work.factorisations, 0u);
-  EXPECT_EQ(direct.result.work.linear_iterations, 0u);
-  EXPECT_EQ(direct.result.work.preconditioners, 0u);
+  EXPECT_GT(iterative.work.linear_iterations, 0u);
+  EXPECT_GT(iterative.work.preconditioners, 0u);
+  EXPECT_EQ(iterative.work.factorisations, 0u);
+  EXPECT_EQ(direct.work.linear_iterations, 0u);
+  EXPECT_EQ(direct.work.preconditioners, 0u);
 }
 
 class IterativeKind : public testing::TestWithParam<std::vector<std::string>> {};
@@ -72,7 +72,7 @@ TEST_P(IterativeKind, AgreesWithTheDirectKind) {
   const Parameters parameters = with(parameters_of({"Certificate/Error bound=false"}), GetParam());
   const Scene scene = make_scene(parameters);
   const Solution solution = simulate(scene, parameters);
-  expect_same_answer(scene, parameters, *solution.space);
+  expect_same_answer(scene, parameters, solution.space());
 }
 
 // Cells that are square, long in r, long in z, and adaptive ones.
@@ -118,7 +118,8 @@ protected:
                                   "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
-        space(*adaptive.space), load(assemble_load(space, scene)), direct(space), iterative(space) {
+        space(adaptive.space()), load(assemble_load(space, scene)), direct(space),
+        iterative(space) {
     direct.set_problem(scene, load, direct_work);
     iterative.set_problem(scene, load, iterative_work);
   }
@@ -263,7 +264,7 @@ TEST(Iterative, FullContactHasItsExactForceAtEverySpeed) {
       parameters_of({"Mesh/Degree=2", "Mesh/Radial cells=16", "Mesh/Angular cells=12"});
   for (const double omega : {0., 0.5, 1.}) {
     const Scene scene = full_circle(0.5, 1, omega, -0.1);
-    const Discretisation ring(scene, parameters);
+    const MeshAndSpace ring(scene, parameters);
     const Answer answer(scene, parameters, ring.space, "iterative");
     EXPECT_EQ(answer.result.patch.active_nodes, 24u);
     EXPECT_NEAR(answer.on_mesh.contact.state.force.l1_norm(),
@@ -276,7 +277,7 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   const Parameters parameters =
       parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=200000"});
   const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   const std::optional<FieldVector> no_load;
   Work work;
   const SolverChoice choice =
@@ -295,7 +296,7 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheDenseProblemTakesLonger) {
         parameters_of({"Mesh/Degree=1", std::string("Mesh/Radial cells=") + radial_cells,
                        "Mesh/Angular cells=3000"});
     const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
-    const Discretisation ring(scene, parameters);
+    const MeshAndSpace ring(scene, parameters);
     Work work;
     const std::optional<FieldVector> no_load;
     const SolverChoice choice =
@@ -312,7 +313,7 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
   const Parameters parameters = with(parameters_of({"Certificate/Error bound=false"}), settings);
   const Scene scene = make_scene(parameters);
   const Solution solution = simulate(scene, parameters);
-  const RingSpace& space = *solution.space;
+  const RingSpace& space = solution.space();
   dealii::AffineConstraints<double> constraints;
   constraints.copy_from(space.constraints());
   for (unsigned int i = 0; i < space.contact_nodes().size(); ++i)

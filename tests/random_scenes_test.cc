@@ -117,7 +117,7 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
   Solution solution = std::move(nearest);
   for (const int i : {1, 2}) {
     const Scene farther = with_distance(scene, c + i * step);
-    solution = simulate(farther, parameters, MPI_COMM_SELF, std::move(solution));
+    solution = simulate(std::move(solution.mesh), farther, parameters);
     results.push_back(solution.result);
   }
   const double energy = results[0].energy.norm_squared + std::abs(results[0].energy.value);
@@ -144,7 +144,9 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      Solution solution = simulate(scene, parameters, MPI_COMM_SELF, Solution());
+      Work work;
+      Solution solution =
+          simulate(Discretisation(scene, parameters, MPI_COMM_SELF, true, work), scene, parameters);
       const Result& result = solution.result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;

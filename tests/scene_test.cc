@@ -67,7 +67,7 @@ TEST_P(PaperFigure, EnergyNormIsTheWorkOfForceAndRoad) {
   const auto& rows = result.contact_rows;
   const Parameters parameters = GetParam().parameters();
   const Scene scene = make_scene(parameters);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   for (unsigned int i = 0; i < rows.size(); ++i)
     work_of_road += ring.space.contact_nodes()[i].weight * rows[i].pressure * rows[i].road;
   const double work_of_force = result.energy.norm_squared / 2 - result.energy.value;

@@ -22,7 +22,7 @@ protected:
 
 TEST_P(Space, HasOneUnknownForEachNodeOffTheHub) {
   const Scene scene = make_scene(parameters);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   const unsigned int p = GetParam();
   EXPECT_EQ(ring.space.n_unknowns(), 3 * p * 10 * p);
   EXPECT_EQ(ring.space.surface_nodes().size(), 10 * p);
@@ -30,7 +30,7 @@ TEST_P(Space, HasOneUnknownForEachNodeOffTheHub) {
 
 TEST_P(Space, WeightsArePositiveAndIntegrateLikeGaussLobatto) {
   const Scene scene = full_circle(0.4, 2, 0.1, -0.1);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   // On each cell the rule with p + 1 points is exact up to degree 2 p - 1.
   const unsigned int p = GetParam();
   double length = 0, moment = 0;
@@ -49,7 +49,7 @@ TEST_P(Space, WeightsArePositiveAndIntegrateLikeGaussLobatto) {
 
 TEST_P(Space, ListsTheContactNodesOfTheZoneInOrder) {
   const Scene scene = make_scene(parameters);
-  const Discretisation ring(scene, parameters);
+  const MeshAndSpace ring(scene, parameters);
   double previous = scene.zone_begin - 1e-12;
   for (const SurfaceNode& node : ring.space.contact_nodes()) {
     EXPECT_GT(node.angle, previous);
@@ -63,7 +63,7 @@ TEST_P(Space, IsDissected) {
   parameters = parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=1",
                               "Mesh/Angular cells=16"});
   const Scene scene = make_scene(parameters);
-  Discretisation ring(scene, parameters);
+  MeshAndSpace ring(scene, parameters);
   for (int level = 0; level < 3; ++level) {
     for (const auto& cell : ring.triangulation->active_cell_iterators())
       if (std::abs(cell->center()[1] - 3 * PI / 2) < PI / (1 << level))
@@ -91,10 +91,10 @@ TEST_P(Space, IsDissected) {
 
 TEST_P(Space, AdmitsAZoneAcrossTheSeam) {
   Scene scene = make_scene(parameters);
-  const Discretisation below(scene, parameters);
+  const MeshAndSpace below(scene, parameters);
   scene.zone_begin -= PI;
   scene.zone_end -= PI;
-  const Discretisation above(scene, parameters);
+  const MeshAndSpace above(scene, parameters);
   ASSERT_EQ(above.space.contact_nodes().size(), below.space.contact_nodes().size());
   for (unsigned int i = 0; i < below.space.contact_nodes().size(); ++i) {
     EXPECT_NEAR(above.space.contact_nodes()[i].angle, below.space.contact_nodes()[i].angle - PI,

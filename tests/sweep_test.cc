@@ -49,8 +49,86 @@ protected:
   Result next(const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_with(assignments);
     const Scene scene = make_scene(parameters);
-    solution = simulate(scene, parameters, MPI_COMM_SELF, std::move(solution));
+    Work work;
+    if (!mesh)
+      mesh.emplace(scene, parameters, MPI_COMM_SELF, true, work);
+    Solution solution = simulate(std::move(*mesh), scene, parameters, work);
+    mesh = std::move(solution.mesh);
     // A zone that is left to the program depends on the distance.
+    const Result single = simulate(scene, parameters).result;
+    expect_same_answer(solution.result, single);
+    return solution.result;
+  }
+
+  std::optional<Discretisation> mesh;
+};
+
+TEST_P(Sweep, DoesNothingTwice) {
+  const std::string zone = "Road/Contact zone=3.9, 5.5";
+  const bool is_direct = GetParam().is_direct();
+  const unsigned int n_factors = is_direct ? 2 : 0; // K and certificate
+  const Work first = next({zone}).work;
+  EXPECT_EQ(first.stiffness_assemblies, 1u);
+  EXPECT_EQ(first.orderings, n_factors);
+  EXPECT_EQ(first.factorisations, n_factors);
+
+  const Work distance = next({zone, "Road/Distance=0.85"}).work;
+  EXPECT_EQ(distance.stiffness_assemblies, 0u);
+  EXPECT_EQ(distance.orderings, 0u);
+  EXPECT_EQ(distance.factorisations, 0u);
+
+  const Work speed = next({zone, "Road/Distance=0.85", "Cylinder/Angular velocity=1"}).work;
+  EXPECT_EQ(speed.stiffness_assemblies, 1u);
+  EXPECT_EQ(speed.orderings, n_factors / 2);
+  EXPECT_EQ(speed.factorisations, n_factors);
+
+  const Work force = next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1"}).work;
+  EXPECT_EQ(force.load_assemblies, 1u);
+  EXPECT_EQ(force.factorisations, 0u);
+  EXPECT_EQ(force.forward_substitutions, n_factors);
+  const Work same_force =
+      next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1", "Road/Distance=0.9"})
+          .work;
+  EXPECT_EQ(same_force.load_assemblies, 0u);
+  EXPECT_EQ(same_force.forward_substitutions, n_factors / 2); // of the certificate
+  next({zone, "Cylinder/Angular velocity=1"});
+}
+
+TEST_P(Sweep, CertifiesUnevenForcesOneAfterAnother) {
+  const std::string zone = "Road/Contact zone=3.9, 5.5";
+  const std::string smooth = "Cylinder/Radial force=1+0.5*r*cos(z)",
+                    jump = "Cylinder/Radial force=if(r<0.8,1,z-3)";
+  next({zone, smooth});
+  next({zone, smooth, "Road/Distance=0.85"});
+  next({zone, smooth, "Cylinder/Angular velocity=1"});
+  next({zone, jump, "Cylinder/Angular velocity=1"});
+  next({zone, jump, "Road/Distance=0.85"});
+  next({zone});
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Sweep,
+                         testing::Values(SweepCase{"direct", 4, 60}, SweepCase{"iterative", 4, 60}),
+                         [](const auto& info) {
+                           return info.param.kind + std::to_string(info.param.radial_cells);
+                         });
+
+/// Makes a study of a small mesh and compares every row with the run of its settings alone.
+void expect_rows_are_single_runs(std::vector<std::string> assignments) {
+  assignments.insert(assignments.begin(), small_mesh.begin(), small_mesh.end());
+  const auto directory = own_path();
+  std::filesystem::remove_all(directory);
+  std::ostringstream out;
+  Parameters parameters = parameters_of(assignments);
+  parameters.output.directory = directory.string();
+  Study study = plan_study(parameters);
+  run_study(study, parameters, out);
+  std::filesystem::remove_all(directory);
+  for (unsigned int run = 0; run < study.plans.size(); ++run) {
+    const RunPlan& plan = study.plans[run];
+    SCOPED_TRACE(label(plan, [](const Setting&) { return true; }));
+    const StudyRun& row = *study.runs[run];
+    ASSERT_TRUE(row.is_solved()) << row.failure;
+    const Scene scene = make_scene(plan.parameters);
     const Result result = simulate(scene, plan.parameters).result;
     const auto single = values_of(result, scene.units);
     const double size = single.at("energy.norm_squared");

@@ -50,7 +50,7 @@ const std::vector<PaperScene>& paper_scenes() {
   return scenes;
 }
 
-Discretisation::Discretisation(const Scene& scene, const Parameters& parameters)
+MeshAndSpace::MeshAndSpace(const Scene& scene, const Parameters& parameters)
     : triangulation(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree) {}
 

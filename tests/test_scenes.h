@@ -42,8 +42,8 @@ struct PaperScene {
 const std::vector<PaperScene>& paper_scenes();
 
 /// Mesh and space of @p parameters for @p scene, without solving anything.
-struct Discretisation {
-  Discretisation(const Scene& scene, const Parameters& parameters);
+struct MeshAndSpace {
+  MeshAndSpace(const Scene& scene, const Parameters& parameters);
 
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
   RingSpace space;

@@ -20,7 +20,7 @@ namespace {
 
 TrueErrors errors_of(const Parameters& parameters, const ExactSolution& exact) {
   const Solution solution = simulate(make_scene(parameters), parameters);
-  return measure_true_errors(*solution.space, solution.displacement, solution.result,
+  return measure_true_errors(solution.space(), solution.displacement, solution.result,
                              solution.certificate, exact);
 }
 
@@ -94,7 +94,7 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
         const Parameters own =
             with(parameters, {i == 0 ? "Mesh/Most unknowns=3000" : "Mesh/Most unknowns=60000"});
         const Solution solution = simulate(make_scene(own), own);
-        errors[i] = measure_true_errors(*solution.space, solution.displacement, solution.result,
+        errors[i] = measure_true_errors(solution.space(), solution.displacement, solution.result,
                                         solution.certificate, *exact)
                         .energy_norm;
         unknowns[i] = solution.result.mesh.dofs;
@@ -116,11 +116,11 @@ TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
   const auto exact = find_exact_solution(scene);
   ASSERT_TRUE(exact);
   const Solution solution = simulate(scene, parameters);
-  const TrueErrors errors = measure_true_errors(*solution.space, solution.displacement,
+  const TrueErrors errors = measure_true_errors(solution.space(), solution.displacement,
                                                 solution.result, solution.certificate, *exact);
 
   const ExactField field({0.5, 1, 0.5, 0.8, 0}, *exact, 400);
-  const auto& space = *solution.space;
+  const auto& space = solution.space();
   const dealii::QGauss<2> gauss(6);
   dealii::FEValues<2> values(space.mapping(), space.dof_handler().get_fe(), gauss,
                              dealii::update_values | dealii::update_gradients |

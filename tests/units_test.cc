@@ -47,7 +47,7 @@ Solution solve(std::vector<std::string> settings, const std::vector<std::string>
   const Parameters parameters = parameters_of(settings);
   Solution solution = simulate(make_scene(parameters), parameters);
   if (const auto exact = find_exact_solution(solution.scene))
-    solution.result.errors = measure_true_errors(*solution.space, solution.displacement,
+    solution.result.errors = measure_true_errors(solution.space(), solution.displacement,
                                                  solution.result, solution.certificate, *exact);
   return solution;
 }

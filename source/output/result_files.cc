@@ -40,9 +40,9 @@ std::string contact_csv(const Result& result, const Units& units) {
 /// @throws NotWritten on all processes
 void write_field(const std::filesystem::path& directory, const Parameters& parameters,
                  const Solution& solution, WrittenFiles& written) {
-  const MPI_Comm communicator = solution.space->communicator();
+  const MPI_Comm communicator = solution.space().communicator();
   std::string own; // stays empty where there are more processes than cells
-  for (const auto& cell : solution.space->dof_handler().active_cell_iterators())
+  for (const auto& cell : solution.space().dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
       own = is_alone(communicator)
                 ? "solution.vtu"
@@ -77,7 +77,7 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
 /// summary.json with what has been done so far; all processes must ask.
 std::string summary_of(const Parameters& parameters, const Solution& solution) {
   Result result = solution.result;
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space->communicator());
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space().communicator());
   return summary_json(solution.scene, parameters, result);
 }
 
@@ -89,7 +89,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   const Result& result = solution.result;
   WrittenFiles written;
   Work& work = solution.result.work;
-  const MPI_Comm communicator = solution.space->communicator();
+  const MPI_Comm communicator = solution.space().communicator();
   const bool is_first = process_number(communicator) == 0;
   std::exception_ptr failure;
   {
@@ -125,7 +125,7 @@ void write_summary(const std::filesystem::path& directory, const Parameters& par
                    const Solution& solution) {
   const std::string summary = summary_of(parameters, solution);
   const std::filesystem::path file = directory / "summary.json";
-  if (parameters.wants(OutputFile::summary) && process_number(solution.space->communicator()) == 0)
+  if (parameters.wants(OutputFile::summary) && process_number(solution.space().communicator()) == 0)
     write_file(file, summary);
 }
 

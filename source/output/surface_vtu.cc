@@ -74,7 +74,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
     radius.push_back((b + point.displacement) * length);
     angle.push_back(z + turn);
     displacement.push_back(point.displacement * length);
-    pressure.push_back(pressure_at(result.contact_rows, z) * pressure_unit);
+    pressure.push_back(point.pressure * pressure_unit);
     gap.push_back(road < b ? (road - point.displacement) * length
                            : std::numeric_limits<double>::quiet_NaN());
   };

@@ -32,7 +32,7 @@ using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
 class DeformedCells {
 public:
   explicit DeformedCells(const Solution& solution)
-      : solution(solution), units(solution.scene.units), space(*solution.space),
+      : solution(solution), units(solution.scene.units), space(solution.space()),
         element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
         numbering(element.get_poly_space_numbering_inverse()),
         values(space.mapping(), element, element.get_unit_support_points(),
@@ -156,7 +156,7 @@ void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind ki
                                   DeformedCells::vectors(solution), flags, out);
       patches.clear();
     };
-    for (const auto& cell : solution.space->dof_handler().active_cell_iterators())
+    for (const auto& cell : solution.space().dof_handler().active_cell_iterators())
       if (cell->is_locally_owned()) {
         if (patches.size() == cells_in_piece)
           write_piece();

@@ -35,14 +35,15 @@ std::string reason_of(const std::exception& failure) {
 } // namespace
 
 bool attempt(const std::function<void()>& compute, const std::string& missing,
-             const std::string& advice, MPI_Comm communicator, Result& result) {
+             const std::string& advice, MPI_Comm communicator,
+             std::vector<std::string>& shortfalls) {
   try {
     compute();
     return true;
   } catch (const std::exception& failure) {
     if (!is_alone(communicator) && !dynamic_cast<const NotSolved*>(&failure))
       throw;
-    result.shortfalls.push_back(missing + ": " + reason_of(failure) + "; " + advice);
+    shortfalls.push_back(missing + ": " + reason_of(failure) + "; " + advice);
     return false;
   }
 }

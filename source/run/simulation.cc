@@ -7,15 +7,13 @@
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
 #include "rollwave/run/load_bounds.h"
+#include "rollwave/run/measure.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -32,162 +30,152 @@ void check_simulation(const RunOptions& options, unsigned int n_processes) {
 
 namespace {
 
-/// The pressure of the mesh before at the nodes of another, zero outside of the contact. Without
-/// entries when there was no mesh before.
-Vector<double> carry_pressure(const Result& before, const std::vector<SurfaceNode>& nodes) {
-  if (before.contact_rows.empty())
-    return {};
-  Vector<double> pressure(nodes.size());
-  const auto& ends = before.patch.ends;
-  for (unsigned int i = 0; i < nodes.size(); ++i)
-    if (const double z = nodes[i].angle; ends && ends->first <= z && z <= ends->second)
-      pressure(i) = pressure_at(before.contact_rows, z);
-  return pressure;
+/// The certificate of a solution, where it is wanted and does not fail.
+std::optional<Certificate> certify_solution(const RunOptions& options, Discretisation& mesh,
+                                            MeshSolution& solution, Work& work) {
+  std::optional<Certificate> certificate;
+  const auto compute = [&] {
+    certificate = certify(*mesh.space, solution.scene, solution.problem, solution.contact,
+                          solution.displacement, mesh.cache.force.get(),
+                          mesh.cache.dual_of(solution.scene, *mesh.space, work), work);
+  };
+  if (options.certificate.error_bound)
+    attempt(compute, "the error could not be certified",
+            "use fewer unknowns, or set Certificate/Error bound to false", mesh.communicator(),
+            solution.shortfalls);
+  return certificate;
 }
 
-/// Certifies the solution on a mesh, unless that fails.
-void certify_solution(const MeshSolution& on_mesh, Solution& solution) {
-  Result& result = solution.result;
-  const Scene& scene = on_mesh.scene;
-  const bool is_certified = attempt(
-      [&] {
-        solution.certificate =
-            certify(*solution.space, scene, on_mesh.problem, on_mesh.contact, on_mesh.displacement,
-                    solution.system.force.get(),
-                    solution.system.dual_of(scene, *solution.space, result.work), result.work);
-      },
-      "the error could not be certified",
-      "use fewer unknowns, or set Certificate/Error bound to false", solution.space->communicator(),
-      result);
-  if (!is_certified)
-    return;
-  result.certified = solution.certificate->error;
-  result.cycles.back().certified = solution.certificate->error.relative;
+/// eta_K of each active cell: its share of the bound or, without a bound, Kelly's indicator.
+std::vector<double> indicate(const RunOptions& options, const Discretisation& mesh,
+                             const MeshSolution& solution,
+                             const std::optional<Certificate>& certificate, Work& work) {
+  const Work::Phase phase(work, "indicator");
+  if (certificate && options.mesh.indicator == Indicator::certificate)
+    return certificate->cell_bounds;
+  return kelly_indicator(*mesh.space, solution.displacement);
 }
 
-/// eta_K of each active cell: its share of the bound or, where there is none, Kelly's indicator.
-std::vector<double> indicate(const RunOptions& options, const MeshSolution& on_mesh,
-                             Solution& solution) {
-  const Work::Phase phase(solution.result.work, "indicator");
-  const bool has_bound = options.certificate.error_bound;
-  std::vector<double> of_cells = has_bound && options.mesh.indicator == Indicator::certificate
-                                     ? solution.certificate->cell_bounds
-                                     : kelly_indicator(*solution.space, on_mesh.displacement);
-  const double squared = std::inner_product(of_cells.begin(), of_cells.end(), of_cells.begin(), 0.);
-  solution.result.cycles.back().indicated =
-      std::sqrt(Utilities::MPI::sum(squared, solution.space->communicator()));
-  return of_cells;
+/// sqrt(sum eta_K^2) over the cells of all processes.
+double total(const std::vector<double>& indicators, MPI_Comm communicator) {
+  const double squared =
+      std::inner_product(indicators.begin(), indicators.end(), indicators.begin(), 0.);
+  return std::sqrt(Utilities::MPI::sum(squared, communicator));
 }
 
-double most_cells(const RunOptions& options) {
-  const auto& mesh = options.mesh;
-  return mesh.most_unknowns / (1. * mesh.degree * mesh.degree);
+CycleFigures describe_cycle(const RingSpace& space, const MeshSolution& solution,
+                            const std::optional<Certificate>& certificate) {
+  CycleFigures cycle = {
+      static_cast<unsigned int>(space.dof_handler().get_triangulation().n_global_active_cells()),
+      space.n_unknowns(),
+      static_cast<unsigned int>(solution.contact.history.size()),
+      0,
+      {}};
+  if (certificate)
+    cycle.certified = certificate->error.relative;
+  return cycle;
 }
 
-/// Refines where @p indicators are large; what belongs to the old mesh is dropped. False, and
-/// nothing is changed, when the mesh would get too large or no cell is marked.
-bool refine(const std::vector<double>& indicators, const RunOptions& options, Solution& solution) {
-  const Work::Phase phase(solution.result.work, "mesh");
-  const auto& mesh = options.mesh;
-  if (!refine_mesh(*solution.triangulation, solution.scene, indicators, mesh.marking,
-                   mesh.marked_fraction, most_cells(options)))
-    return false;
-  solution.certificate.reset();
-  solution.system = {};
-  solution.space.reset();
-  solution.result.certified.reset();
-  return true;
+bool is_reached(const RunOptions& options, const std::optional<Certificate>& certificate) {
+  return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-bool is_reached(const RunOptions& options, const Result& result) {
-  return result.certified && result.certified->relative <= options.mesh.wanted_relative_error;
+/// True if the wanted error is reached, or a further mesh is not asked for or has no room.
+bool is_last(const RunOptions& options, const Discretisation& mesh,
+             const std::optional<Certificate>& certificate, unsigned int n_meshes) {
+  const bool has_failed = options.certificate.error_bound && !certificate;
+  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
+         !has_room_to_refine(*mesh.triangulation, options.mesh.marking, most_cells(options));
+}
+
+std::string interrupted_text(unsigned int n_meshes) {
+  return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
+}
+
+PressureProfile pressure_of(const RingSpace& space, const MeshSolution& solution) {
+  return {space.contact_nodes(), solution.problem.pressures(solution.contact.state.force),
+          solution.resultants.ends};
 }
 
 /// Bounds the work-conjugate load or, where that is given, the distance.
-void enclose_load(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
-  Result& result = solution.result;
-  if (!solution.scene.load)
-    result.load_bounds = bound_load(options, *solution.space, on_mesh, solution.system, result);
-  else if (solution.scene.load->kind == LoadKind::work_conjugate)
+void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
+                  const CertifiedError& error, Work& work, Result& result) {
+  const auto& load = solution.scene.load;
+  if (!load)
+    result.load_bounds = bound_load(options, *mesh.space, solution, error, mesh.cache, work);
+  else if (load->kind == LoadKind::work_conjugate)
     result.distance_bounds =
-        bound_distance(options, *solution.space, on_mesh, solution.system, result);
+        bound_distance(options, *mesh.space, solution, error, mesh.cache, work);
   else
-    result.remarks.push_back("the distance can be enclosed where Road/Load kind is work-conjugate "
-                             "only");
+    result.remarks.push_back("the distance can be enclosed only where Road/Load kind is "
+                             "work-conjugate");
 }
 
-/// Completes the result of the last mesh.
-void finish(const RunOptions& options, MeshSolution on_mesh, Solution& solution) {
-  Result& result = solution.result;
-  const auto& certificate = options.certificate;
-  if (options.mesh.wanted_relative_error > 0 && result.certified && !is_reached(options, result))
+/// Adds the targets that were not reached, and the remarks.
+void judge(const RunOptions& options, const Discretisation& mesh, const Scene& scene,
+           const std::optional<Certificate>& certificate, Result& result) {
+  const bool wants_error = options.mesh.wanted_relative_error > 0;
+  if (wants_error && certificate && !is_reached(options, certificate))
     result.shortfalls.push_back(
-        missing_error_text(options, result, is_at_finest_level(*solution.triangulation)));
+        missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
-  if (certificate.load_bounds && result.certified && !result.is_interrupted)
-    attempt([&] { enclose_load(options, on_mesh, solution); }, "the load could not be enclosed",
-            "use fewer unknowns, or set Certificate/Load bounds to false",
-            solution.space->communicator(), result);
-  for (const std::string& remark : remarks_on(solution.scene, options, *solution.space, result))
+  for (const std::string& remark : remarks_on(scene, options, *mesh.space, result))
     result.remarks.push_back(remark);
-  solution.displacement = std::move(on_mesh.displacement);
 }
 
-/// Indicates and refines. False, and the mesh is the last one, when what is wanted is reached, or
-/// cannot be, or the user has interrupted it.
-bool refine_further(const RunOptions& options, const MeshSolution& on_mesh, Solution& solution) {
-  Result& result = solution.result;
-  const bool is_certified = solution.certificate || !options.certificate.error_bound;
-  if (result.is_interrupted || result.cycles.size() > most_cycles(options.mesh) || !is_certified ||
-      is_reached(options, result) ||
-      !has_room_to_refine(*solution.triangulation, options.mesh.marking, most_cells(options)))
-    return false;
-  const std::vector<double> indicators = indicate(options, on_mesh, solution);
-  result.is_interrupted = is_interrupted(solution.space->communicator());
-  if (result.is_interrupted)
-    result.shortfalls.push_back("interrupted after " + std::to_string(result.cycles.size()) +
-                                (result.cycles.size() == 1 ? " mesh" : " meshes"));
-  return !result.is_interrupted && refine(indicators, options, solution);
+/// The solution of a run from that on its last mesh.
+Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution last,
+                std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
+                bool is_interrupted, Work work) {
+  Result result = measure(*mesh.space, last);
+  result.cycles = std::move(cycles);
+  result.is_interrupted = is_interrupted;
+  if (certificate)
+    result.certified = certificate->error;
+  judge(options, mesh, last.scene, certificate, result);
+  if (options.certificate.load_bounds && certificate && !is_interrupted)
+    attempt([&] { enclose_load(options, mesh, last, certificate->error, work, result); },
+            "the load could not be enclosed",
+            "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
+            result.shortfalls);
+  if (!mesh.is_shared)
+    mesh.cache = {};
+  result.work = std::move(work);
+  return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
+          std::move(result)};
 }
 
-/// Makes the space of the mesh, or takes that of another scene on it.
-void prepare_space(const RunOptions& options, Solution& solution) {
-  const Work::Phase phase(solution.result.work, "space");
-  if (solution.space)
-    solution.space->set_contact_zone(solution.scene);
-  else
-    solution.space =
-        std::make_unique<RingSpace>(*solution.triangulation, solution.scene, options.mesh.degree);
-}
-
-/// Solves, certifies and refines until what @p options want is reached, or cannot be. @p solution
-/// has a mesh, and perhaps the contact of a coarser one. @param is_kept whether what belongs to the
-/// last mesh will be used again
-void solve_and_refine(const RunOptions& options, bool is_kept, Solution& solution) {
-  Result& result = solution.result;
+/// Solves, certifies and refines until the wanted error is reached, or cannot be.
+/// @param pressure to start from
+Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& options,
+                          PressureProfile pressure, Work work, std::vector<CycleFigures>& cycles) {
   for (;;) {
-    prepare_space(options, solution);
-    MeshSolution on_mesh = solve_on_mesh(solution.scene, options, *solution.space,
-                                         carry_pressure(result, solution.space->contact_nodes()),
-                                         solution.system, result.work);
-    solution.scene = on_mesh.scene;
-    measure(*solution.space, on_mesh, result);
-    if (!is_kept && !options.certificate.load_bounds)
-      solution.system.stiffness.solver.reset(); // the certificate needs its memory
-    if (options.certificate.error_bound)
-      certify_solution(on_mesh, solution);
-    if (refine_further(options, on_mesh, solution))
-      continue;
-    finish(options, std::move(on_mesh), solution);
-    if (!is_kept)
-      solution.system = {};
-    return;
+    MeshSolution solution = solve_on_mesh(scene, options, *mesh.space, pressure, mesh.cache, work);
+    if (!mesh.is_shared && !options.certificate.load_bounds)
+      mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
+    std::optional<Certificate> certificate = certify_solution(options, mesh, solution, work);
+    cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
+
+    const bool ends = is_last(options, mesh, certificate, cycles.size());
+    const bool is_stopped = !ends && is_interrupted(mesh.communicator());
+    if (is_stopped)
+      solution.shortfalls.push_back(interrupted_text(cycles.size()));
+    if (!ends && !is_stopped) {
+      scene = solution.scene;
+      pressure = pressure_of(*mesh.space, solution);
+      const auto indicators = indicate(options, mesh, solution, certificate, work);
+      cycles.back().indicated = total(indicators, mesh.communicator());
+      if (mesh.refine(indicators, scene, options, work))
+        continue;
+    }
+    return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
+                  is_stopped, std::move(work));
   }
 }
 
-/// Whether the first contact iteration begins on a coarser mesh: each of its steps costs the
+/// True if the first contact iteration begins on a coarser mesh: each of its steps costs the
 /// iterative kind a new preconditioner.
 bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
   constexpr double least_unknowns = 1e5;
@@ -196,49 +184,62 @@ bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
          count_unknowns(options.mesh) > least_unknowns;
 }
 
+/// A start from a coarser mesh.
+struct Start {
+  Scene scene; ///< with the distance found there
+  PressureProfile pressure;
+};
+
+/// Solves on a coarser mesh. The scene as it is, without a pressure, where that is too coarse, such
+/// as for a short zone.
+Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                    Work& work) {
+  try {
+    const RunOptions coarse = coarser(options);
+    Discretisation mesh(scene, coarse, communicator, false, work);
+    const MeshSolution solution = solve_on_mesh(scene, coarse, *mesh.space, {}, mesh.cache, work);
+    return {solution.scene, pressure_of(*mesh.space, solution)};
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const BadInput&) {
+    return {scene, {}};
+  } catch (const NotSolved&) {
+    return {scene, {}};
+  }
+}
+
 } // namespace
 
-Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                  std::optional<Solution> previous) {
+Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options, Work work) {
+  const MPI_Comm communicator = mesh.communicator();
   check_simulation(options, count_processes(communicator));
-  Solution solution;
-  solution.scene = scene;
-  if (previous) {
-    solution.triangulation = std::move(previous->triangulation);
-    solution.space = std::move(previous->space);
-    solution.system = std::move(previous->system);
-  }
+  Start start = {scene, {}};
   if (begins_coarser(options, communicator))
-    try {
-      Solution start = simulate(scene, coarser(options), communicator);
-      solution.scene = std::move(start.scene);
-      solution.result.work = start.result.work;
-      solution.result.contact_rows = std::move(start.result.contact_rows);
-      solution.result.patch = std::move(start.result.patch);
-    } catch (const Interrupted&) {
-      throw;
-    } catch (const BadInput&) {
-      // Too coarse for this scene, such as for a short zone: then without a start.
-    } catch (const NotSolved&) {
-      // Likewise.
-    }
-  if (!solution.triangulation) {
-    const Work::Phase phase(solution.result.work, "mesh");
-    solution.triangulation =
-        make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
-  }
+    start = solve_coarser(scene, options, communicator, work);
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
+  {
+    const Work::Phase phase(work, "space");
+    mesh.space->set_contact_zone(scene);
+  }
+  std::vector<CycleFigures> cycles;
   try {
-    solve_and_refine(options, previous.has_value(), solution);
+    return solve_and_refine(std::move(mesh), start.scene, options, std::move(start.pressure),
+                            std::move(work), cycles);
   } catch (const NotEnoughMemory& shortage) {
-    if (solution.result.cycles.empty())
+    if (cycles.empty())
       throw;
-    const std::string solved = std::to_string(solution.result.cycles.back().dofs);
+    const std::string solved = std::to_string(cycles.back().dofs);
     throw NotSolved("after a mesh of " + solved + " unknowns: " + shortage.reason +
                     "; set Mesh/Most unknowns to " + solved + " to end there");
   }
-  return solution;
+}
+
+Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
+  check_simulation(options, count_processes(communicator));
+  Work work;
+  Discretisation mesh(scene, options, communicator, false, work);
+  return simulate(std::move(mesh), scene, options, std::move(work));
 }
 
 } // namespace rollwave

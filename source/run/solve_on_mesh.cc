@@ -1,13 +1,13 @@
 #include "rollwave/run/solve_on_mesh.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/scene/scene.h"
 
-#include <deal.II/grid/tria.h>
-
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -16,17 +16,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-MeshFigures describe_mesh(const RingSpace& space) {
-  const auto& handler = space.dof_handler();
-  const auto [least_diameter, largest_diameter] = space.diameters();
-  return {handler.get_fe().degree,
-          static_cast<unsigned int>(handler.get_triangulation().n_global_active_cells()),
-          space.n_unknowns(),
-          static_cast<unsigned int>(space.contact_nodes().size()),
-          least_diameter,
-          largest_diameter};
-}
 
 /// part / whole, where a part of nothing is nothing.
 double relative(double part, double whole) {
@@ -58,25 +47,6 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
           relative(force_times_gap, force_times_road)};
 }
 
-std::vector<ContactRow> tabulate_contact(const RingSpace& space, const ContactProblem& problem,
-                                         const ContactState& state) {
-  const Vector<double> gap = problem.gaps(state.displacement),
-                       pressure = problem.pressures(state.force);
-  std::vector<ContactRow> rows;
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    rows.push_back({space.contact_nodes()[i].angle, state.displacement(i), problem.road(i), gap(i),
-                    pressure(i), problem.weight(i)});
-  return rows;
-}
-
-std::vector<SurfacePoint> tabulate_surface(const RingSpace& space, const FieldVector& field) {
-  const std::vector<double> values = space.surface_values(field);
-  std::vector<SurfacePoint> points;
-  for (unsigned int i = 0; i < values.size(); ++i)
-    points.push_back({space.surface_nodes()[i].angle, values[i]});
-  return points;
-}
-
 /// @throws NotSolved where squares of such numbers overflow or there is none
 void require_finite(double squared, const std::string& what) {
   if (!std::isfinite(squared))
@@ -84,114 +54,125 @@ void require_finite(double squared, const std::string& what) {
                            "radii, which must not be too close to each other either");
 }
 
-/// Makes the force and the load of @p system those of the scene.
-void make_load(const Scene& scene, const RingSpace& space, MeshCache& system, Work& work) {
+/// Makes the force and the load of @p cache those of the scene.
+void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, Work& work) {
   if (!scene.force) {
-    system.force.reset();
-    system.load.reset();
-  } else if (!system.load || system.force_text != scene.force_text) {
+    cache.force.reset();
+    cache.load.reset();
+  } else if (!cache.load || cache.force_text != scene.force_text) {
     const Work::Phase phase(work, "assembly");
     RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
-    system.force = std::make_unique<ForceIntegral>(space, scene, shapes);
-    system.load = assemble_load(space, *system.force, shapes);
-    system.force_text = scene.force_text;
+    cache.force = std::make_unique<ForceIntegral>(space, scene, shapes);
+    cache.load = assemble_load(space, *cache.force, shapes);
+    cache.force_text = scene.force_text;
     ++work.load_assemblies;
   }
-  if (system.load)
-    require_finite(system.load->norm_sqr(), "the load");
+  if (cache.load)
+    require_finite(cache.load->norm_sqr(), "the load");
+}
+
+/// The pressure profile's nodes in contact, and the distance of a load that is given.
+void solve_contact_on(const RunOptions& options, const RingSpace& space,
+                      const PressureProfile& start, ContactLinearSolver& solver,
+                      MeshSolution& solution) {
+  Vector<double> pressure = start.at(space.contact_nodes());
+  if (solution.scene.load) {
+    RoadPosition road =
+        find_distance(solver, space, solution.scene, options.contact.most_steps, pressure);
+    solution.scene = with_distance(solution.scene, road.distance);
+    if (const auto shortfall = missing_load_text(solution.scene, road.load))
+      solution.shortfalls.push_back(*shortfall);
+    pressure = std::move(road.pressure);
+  }
+  solution.problem = make_contact_problem(space, solution.scene);
+  solution.contact = solve_contact(solver, solution.problem, options.contact, pressure);
+  if (!solution.contact.remark.empty())
+    solution.remarks.push_back(solution.contact.remark);
+}
+
+/// Leaves out what nodes next to the tangent of a drum do not resolve.
+void leave_out_unresolved(MeshSolution& solution) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  solution.resultants.work_conjugate_load = unknown;
+  solution.resultants.stiffness = {unknown, unknown, unknown};
+  solution.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
+                             "work-conjugate load and the stiffness are not resolved: they are "
+                             "left out");
+  if (const auto& load = solution.scene.load; load && load->kind == LoadKind::work_conjugate)
+    solution.shortfalls.push_back("the work-conjugate load that was given is not resolved, since "
+                                  "contact reaches the tangent of the drum; raise Mesh/Angular "
+                                  "cells, or set Road/Load kind = vertical");
 }
 
 } // namespace
 
-StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space, Work& work) {
-  const Work::Phase phase(work, "certificate");
-  if (!dual || dual->angular_velocity() != scene.angular_velocity) {
-    dual.reset(); // its memory is free before the next one needs it
-    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, work);
-  }
-  return *dual;
+PressureProfile::PressureProfile(const std::vector<SurfaceNode>& nodes,
+                                 const Vector<double>& pressure,
+                                 const std::optional<std::pair<double, double>>& ends)
+    : ends(ends) {
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    pressures[nodes[i].angle] = pressure(i);
+}
+
+Vector<double> PressureProfile::at(const std::vector<SurfaceNode>& nodes) const {
+  if (pressures.empty())
+    return {};
+  Vector<double> values(nodes.size());
+  for (unsigned int i = 0; i < nodes.size(); ++i)
+    values(i) = at(nodes[i].angle);
+  return values;
+}
+
+double PressureProfile::at(double angle) const {
+  if (!ends || angle < ends->first || angle > ends->second)
+    return 0;
+  const auto next = pressures.lower_bound(angle);
+  if (next == pressures.end() || (next == pressures.begin() && next->first > angle))
+    return 0;
+  if (next->first == angle)
+    return next->second;
+  const auto before = std::prev(next);
+  const double t = (angle - before->first) / (next->first - before->first);
+  return (1 - t) * before->second + t * next->second;
 }
 
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
-                           const Vector<double>& start, MeshCache& system, Work& work) {
+                           const PressureProfile& start, MeshCache& cache, Work& work) {
   MeshSolution solution;
   solution.scene = scene;
-  make_load(scene, space, system, work);
-  auto& solver = system.stiffness.solver;
-  const std::string& remark = system.stiffness.remark;
-  if (solver)
-    solver->set_problem(scene, system.load, work);
+  make_load(scene, space, cache, work);
+  if (cache.stiffness.solver)
+    cache.stiffness.solver->set_problem(scene, cache.load, work);
   else
-    system.stiffness = choose_solver(options.solver.kind, space, scene, system.load, work);
+    cache.stiffness = choose_solver(options.solver.kind, space, scene, cache.load, work);
+  ContactLinearSolver& solver = *cache.stiffness.solver;
+  if (!cache.stiffness.remark.empty())
+    solution.remarks.push_back(cache.stiffness.remark);
   {
     const Work::Phase phase(work, "contact");
-    Vector<double> pressure = start;
-    if (scene.load) {
-      RoadPosition road = find_distance(*solver, space, scene, options.contact.most_steps, start);
-      solution.scene = with_distance(scene, road.distance);
-      solution.shortfall = missing_load_text(scene, road.load);
-      pressure = std::move(road.pressure);
-    }
-    solution.problem = make_contact_problem(space, solution.scene);
-    solution.contact = solve_contact(*solver, solution.problem, options.contact, pressure);
+    solve_contact_on(options, space, start, solver, solution);
   }
-  if (!remark.empty())
-    solution.contact.remark =
-        remark + (solution.contact.remark.empty() ? "" : "; ") + solution.contact.remark;
-  solution.displacement = solver->displacement_field(solution.contact.state);
+  solution.displacement = solver.displacement_field(solution.contact.state);
+  Loads stiffness;
   {
     const Work::Phase phase(work, "contact");
-    solution.stiffness = contact_stiffness(*solver, space, solution.scene, solution.problem,
-                                           solution.contact, options.contact.most_steps);
+    stiffness = contact_stiffness(solver, space, solution.scene, solution.problem, solution.contact,
+                                  options.contact.most_steps);
   }
   const Work::Phase phase(work, "measurement");
-  FieldVector stiffness_times_u = solver->apply(solution.displacement);
+  solution.resultants =
+      measure_contact(solution.scene, space.contact_nodes(), solution.problem, solution.contact);
+  solution.resultants.stiffness = stiffness;
+  if (reaches_tangent(solution.problem, solution.contact.active))
+    leave_out_unresolved(solution);
+  FieldVector stiffness_times_u = solver.apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;
-  const double work_of_force = system.load ? solution.displacement * *system.load : 0.;
-  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  const double work_of_force = cache.load ? solution.displacement * *cache.load : 0.;
   require_finite(norm_squared + std::abs(work_of_force), "the energy");
+  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
   solution.residuals = measure_residuals(space, solution.problem, solution.contact,
-                                         std::move(stiffness_times_u), system.load);
+                                         std::move(stiffness_times_u), cache.load);
   return solution;
-}
-
-void measure(const RingSpace& space, const MeshSolution& solution, Result& result) {
-  const Work::Phase phase(result.work, "measurement");
-  const auto& [scene, problem, contact, stiffness, shortfall, displacement, energy, residuals] =
-      solution;
-  result.mesh = describe_mesh(space);
-  result.road_distance = scene.road_distance;
-  result.patch = measure_contact(scene, space.contact_nodes(), problem, contact);
-  result.patch.stiffness = stiffness;
-  result.energy = energy;
-  result.residuals = residuals;
-  result.contact_rows = tabulate_contact(space, problem, contact.state);
-  result.surface = tabulate_surface(space, displacement);
-  result.history = contact.history;
-  result.rho = contact.rho;
-  result.remarks.clear();
-  result.shortfalls.clear();
-  if (reaches_tangent(problem, contact.active)) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    result.patch.work_conjugate_load = unknown;
-    result.patch.stiffness = {unknown, unknown, unknown};
-    result.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
-                             "work-conjugate load and the stiffness are not resolved: they are "
-                             "left out");
-    if (scene.load && scene.load->kind == LoadKind::work_conjugate)
-      result.shortfalls.push_back("the work-conjugate load that was given is not resolved, since "
-                                  "contact reaches the tangent of the drum; raise Mesh/Angular "
-                                  "cells, or set Road/Load kind = vertical");
-  }
-  if (!contact.remark.empty())
-    result.remarks.push_back(contact.remark);
-  if (shortfall)
-    result.shortfalls.push_back(*shortfall);
-  result.cycles.push_back({result.mesh.cells,
-                           result.mesh.dofs,
-                           static_cast<unsigned int>(result.history.size()),
-                           0,
-                           {}});
 }
 
 } // namespace rollwave

@@ -98,9 +98,9 @@ void StudySolver::warm_up() {
 Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   Scene scene = make_scene(plan.parameters);
   const Settings key = settings_of(plan, Affects::mesh);
-  Solution previous;
+  std::optional<Discretisation> mesh;
   if (last_mesh == key) {
-    previous = std::move(*solution);
+    mesh = std::move(solution->mesh);
     run.shared = "mesh";
   }
   solution.reset();  // before the next one needs its memory
@@ -109,7 +109,10 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   if (zone == widest_zone.end())
     return simulate(scene, plan.parameters, communicator);
   scene.shared_zone = zone->second;
-  Solution shared = simulate(scene, plan.parameters, communicator, std::move(previous));
+  Work work;
+  if (!mesh)
+    mesh.emplace(scene, plan.parameters, communicator, true, work);
+  Solution shared = simulate(std::move(*mesh), scene, plan.parameters, std::move(work));
   last_mesh = key;
   if (!run.shared.empty() && shared.result.work.stiffness_assemblies == 0)
     run.shared = "mesh and matrices";
@@ -123,7 +126,7 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
     throw Interrupted(shortfall_text(result));
   if (study.study.true_errors)
     if (const auto& exact = exact_solution(plan, solution->scene)) {
-      result.errors = measure_true_errors(*solution->space, solution->displacement, result,
+      result.errors = measure_true_errors(solution->space(), solution->displacement, result,
                                           solution->certificate, *exact);
       run.reference = "the semi-analytic solution";
       if (!result.errors->is_resolved)

@@ -85,14 +85,11 @@ struct ContactRow {
   double weight; ///< an area: pressures times it add up to the force
 };
 
-/// The pressure at the angle @p z: linear between contact nodes, which are listed by increasing
-/// angle, zero beyond them.
-double pressure_at(const std::vector<ContactRow>& rows, double z);
-
 /// A point of the deformed surface r = b.
 struct SurfacePoint {
   double angle;
   double displacement;
+  double pressure; ///< at the node, 0 outside of the zone
 };
 
 /// All results of one solved scene, in its units; result_quantities() lists the numbers.

@@ -2,29 +2,37 @@
 #define ROLLWAVE_RUN_SOLVE_ON_MESH_H
 
 #include "rollwave/contact/contact_problem.h"
-#include "rollwave/error_bound/force_integral.h"
-#include "rollwave/error_bound/stress_function.h"
+#include "rollwave/run/discretisation.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
-#include "rollwave/solver/choose_solver.h"
 
-#include <memory>
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace rollwave {
 
-/// What scenes on one mesh share. Each part is made when it is first needed and turned to another
-/// scene at the cost of what differs.
-struct MeshCache {
-  SolverChoice stiffness; ///< its kind outlives the solver
-  std::unique_ptr<StressFunction> dual;
-  std::unique_ptr<ForceIntegral> force; ///< nullptr without force
-  std::optional<FieldVector> load;      ///< of the same
-  std::string force_text;               ///< of the scene that force and load belong to
+/// The contact pressure on one mesh as a function of the angle: linear between nodes, zero outside
+/// of contact. The contact iteration on another mesh starts from it.
+class PressureProfile {
+public:
+  /// Without a mesh before: the iteration starts without contact.
+  PressureProfile() = default;
 
-  /// Makes the dual problem that of a scene. @throws as StressFunction
-  StressFunction& dual_of(const Scene& scene, const RingSpace& space, Work& work);
+  /// @param ends where contact begins and ends
+  PressureProfile(const std::vector<SurfaceNode>& nodes, const dealii::Vector<double>& pressure,
+                  const std::optional<std::pair<double, double>>& ends);
+
+  /// The pressures at the nodes of another mesh; without entries where there was no mesh before.
+  dealii::Vector<double> at(const std::vector<SurfaceNode>& nodes) const;
+
+private:
+  double at(double angle) const;
+
+  std::map<double, double> pressures; ///< of the nodes by their angles
+  std::optional<std::pair<double, double>> ends;
 };
 
 /// The discrete problem and its solution on one mesh.
@@ -32,22 +40,20 @@ struct MeshSolution {
   Scene scene; ///< with the distance that a given load needs
   ContactProblem problem;
   ContactSolution contact;
-  Loads stiffness;
-  std::optional<std::string> shortfall; ///< of a load that is given
-  FieldVector displacement;             ///< u_h
-  Energy energy;                        ///< of u_h
+  FieldVector displacement; ///< u_h
+  ContactResultants resultants;
+  Energy energy; ///< of u_h
   Residuals residuals;
+  std::vector<std::string> remarks;    ///< anything unusual that the user should know
+  std::vector<std::string> shortfalls; ///< targets that were not reached, with the keys to change
 };
 
-/// Solves @p scene on @p space by the methods of @p options, beginning with the contact
-/// pressures @p start (none when it has no entries). @p system is that of the same space.
+/// Solves @p scene on @p space by the methods of @p options, beginning with the contact pressures
+/// @p start. @p cache is that of the same space.
 /// @throws BadInput where the force is not finite, NotSolved when a solver fails or a number is
 /// beyond what numbers can hold.
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
-                           const dealii::Vector<double>& start, MeshCache& system, Work& work);
-
-/// Fills in what @p result tells of a solution on one mesh, and adds to its cycles.
-void measure(const RingSpace& space, const MeshSolution& solution, Result& result);
+                           const PressureProfile& start, MeshCache& cache, Work& work);
 
 } // namespace rollwave
 

@@ -1,0 +1,14 @@
+#ifndef ROLLWAVE_RUN_MEASURE_H
+#define ROLLWAVE_RUN_MEASURE_H
+
+#include "rollwave/run/result.h"
+#include "rollwave/run/solve_on_mesh.h"
+
+namespace rollwave {
+
+/// The result of a solution on one mesh. It lacks error bounds, the list of meshes, and work.
+Result measure(const RingSpace& space, const MeshSolution& solution);
+
+} // namespace rollwave
+
+#endif
