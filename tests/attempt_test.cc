@@ -39,7 +39,7 @@ TEST(Attempt, MakesEveryFailureAShortfall) {
 Result without_certificate(const std::vector<std::string>& settings) {
   const Parameters parameters = with(parameters_of({"Mesh/Angular cells=400"}), settings);
   Scene scene = make_scene(parameters);
-  scene.road_slope = [](double) -> double { throw ExcSingular(); };
+  scene.phi.slope = [](double) -> double { throw ExcSingular(); };
   return simulate(scene, parameters).result;
 }
 

@@ -234,10 +234,10 @@ TEST_F(Faults, InterruptEndsAfterTheCurrentMesh) {
     install_signal_handlers();
     const Parameters parameters = parameters_of(assignments);
     Scene scene = make_scene(parameters);
-    scene.road = [road = scene.road](double z) {
+    scene.phi.displacement = [phi = scene.phi](double z) {
       if (!is_interrupted(MPI_COMM_SELF))
         std::raise(SIGTERM); // on the first mesh
-      return road(z);
+      return phi(z);
     };
     const Result result = simulate(scene, parameters).result;
     std::cerr << shortfall_text(result) << " [" << result.cycles.size() << " "

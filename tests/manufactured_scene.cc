@@ -73,15 +73,15 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
                 outer_radius,
                 angular_velocity,
                 {},
-                [=](double z) {
-                  const double outside = std::max(0., std::abs(z - m) - w);
-                  return surface(z) + gap_factor * outer_radius * std::pow(outside, 1.5);
-                },
-                [=](double z) {
-                  const double outside = std::max(0., std::abs(z - m) - w);
-                  return surface_slope(z) +
-                         std::copysign(1.5, z - m) * gap_factor * outer_radius * std::sqrt(outside);
-                },
+                {[=](double z) {
+                   const double outside = std::max(0., std::abs(z - m) - w);
+                   return surface(z) + gap_factor * outer_radius * std::pow(outside, 1.5);
+                 },
+                 [=](double z) {
+                   const double outside = std::max(0., std::abs(z - m) - w);
+                   return surface_slope(z) + std::copysign(1.5, z - m) * gap_factor * outer_radius *
+                                                 std::sqrt(outside);
+                 }},
                 m - w - zone_margin,
                 m + w + zone_margin};
   return made;

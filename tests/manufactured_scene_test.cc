@@ -74,7 +74,7 @@ TEST(ManufacturedScene, OfTheFlatRoadIsTheFlatRoad) {
       return Road{1, 0.8}.displacement(from_lowest_point(angle));
     };
     for (double x = -0.45; x < 0.46; x += 0.05)
-      EXPECT_NEAR(made.scene.road(3 * PI / 2 + x), flat(3 * PI / 2 + x), 1e-6);
+      EXPECT_NEAR(made.scene.phi(3 * PI / 2 + x), flat(3 * PI / 2 + x), 1e-6);
   }
 }
 
@@ -83,7 +83,7 @@ TEST(SmoothSolution, ConvergesWithTheOrderOfTheDegree) {
   const double a = 0.5, b = 1, omega = 0.7;
   const auto radial = [&](double r) { return (r - a) * (2 * b - a - r); };
   Scene scene = make_scene(parameters_of({"Cylinder/Angular velocity=0.7", "Road/Distance=1.9"}));
-  scene.force = [&](double r, double z) {
+  scene.force.density = [&](double r, double z) {
     const double slope = 2 * (b - r), curvature = -2;
     return scene.alpha(r) * radial(r) * std::cos(z) / 2 -
            (curvature + slope / r) * (1 + std::cos(z) / 2);

@@ -314,8 +314,8 @@ TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
   const Scene scene =
       make_scene(parameters_of({"Cylinder/Outer radius=2", "Road/Distance=1.7",
                                 "Cylinder/Angular velocity=0.1", "Cylinder/Radial force=0.1*r"}));
-  EXPECT_NEAR(scene.road(scene.zone_begin) * scene.units.length, 2, 1e-13);
-  EXPECT_NEAR(scene.road(scene.zone_end) * scene.units.length, 2, 1e-13);
+  EXPECT_NEAR(scene.phi(scene.zone_begin) * scene.units.length, 2, 1e-13);
+  EXPECT_NEAR(scene.phi(scene.zone_end) * scene.units.length, 2, 1e-13);
 }
 
 TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
@@ -326,12 +326,12 @@ TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
     const double f = std::stod(force);
     const double free = f * (-0.1875 + std::log(2.) / 2);
     const double two_cells = 4 * M_PI / 100;
-    EXPECT_NEAR(scene.road(scene.zone_begin + two_cells), free, 1e-14);
-    EXPECT_NEAR(scene.road(scene.zone_end - two_cells), free, 1e-14);
+    EXPECT_NEAR(scene.phi(scene.zone_begin + two_cells), free, 1e-14);
+    EXPECT_NEAR(scene.phi(scene.zone_end - two_cells), free, 1e-14);
   }
   // Where it would be wider than where phi < b, it is not.
   const Scene bulging = make_scene(parameters_of({"Cylinder/Radial force=1e8"}));
-  EXPECT_NEAR(bulging.road(bulging.zone_begin), 1, 1e-14);
+  EXPECT_NEAR(bulging.phi(bulging.zone_begin), 1, 1e-14);
 }
 
 TEST(Scene, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
@@ -353,7 +353,7 @@ TEST(Scene, ForceIsAnExpressionInRAndZ) {
   EXPECT_FALSE(make_scene(parameters_of({"Cylinder/Radial force=0.0"})).force);
   for (const char* const force : {"+1.5", "3/2", "2*0.75", "1.5 + 0*pi"})
     EXPECT_EQ(
-        make_scene(parameters_of({std::string("Cylinder/Radial force=") + force})).uniform_force,
+        make_scene(parameters_of({std::string("Cylinder/Radial force=") + force})).force.uniform,
         1.5);
   // Commas within a function, and comparisons, are part of the language.
   const Scene stepped =

@@ -234,7 +234,7 @@ TEST(RandomScenes, AreFoundAgainByTheirLoads) {
     } catch (const BadInput&) {
       continue;
     }
-    const double c = scene->road_distance, b = scene->outer_radius, nearest = scene->least_distance;
+    const double c = scene->road.distance, b = scene->outer_radius, nearest = scene->least_distance;
     const double load = load_of(simulate(*scene, parameters).result, kind);
     if (!(load > 0) || c < nearest)
       continue;

@@ -144,8 +144,8 @@ TEST_P(Symmetry, RotationByWholeCellsTurnsTheSolution) {
     Scene turned = make_scene(parameters);
     turned.zone_begin -= turn;
     turned.zone_end -= turn;
-    turned.road = [&scene, turn](double z) { return scene.road(z + turn); };
-    turned.road_slope = [&scene, turn](double z) { return scene.road_slope(z + turn); };
+    turned.phi = {[&scene, turn](double z) { return scene.phi(z + turn); },
+                  [&scene, turn](double z) { return scene.phi.slope(z + turn); }};
     const Result result = simulate(turned, parameters).result;
     EXPECT_EQ(result.patch.active_nodes, original.patch.active_nodes);
     EXPECT_NEAR(result.patch.force, original.patch.force, 1e-12);
@@ -160,15 +160,14 @@ TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
   // Slanted, so that no two cells have the same indicator, with a force that hanging nodes see.
   const auto slanted = [](double turn, double unevenness) {
     Scene scene = make_scene(parameters_of({}));
-    scene.force = [turn, unevenness](double r, double z) {
+    scene.force.density = [turn, unevenness](double r, double z) {
       return r * (1 + unevenness * std::cos(z + turn + 0.4)) / 10;
     };
-    scene.road = [road = scene.road, turn](double z) {
-      return road(z + turn) + 0.03 * std::sin(z + turn);
-    };
-    scene.road_slope = [slope = scene.road_slope, turn](double z) {
-      return slope(z + turn) + 0.03 * std::cos(z + turn);
-    };
+    scene.phi = {
+        [phi = scene.phi, turn](double z) { return phi(z + turn) + 0.03 * std::sin(z + turn); },
+        [phi = scene.phi, turn](double z) {
+          return phi.slope(z + turn) + 0.03 * std::cos(z + turn);
+        }};
     scene.zone_begin -= turn;
     scene.zone_end -= turn;
     return scene;
@@ -230,12 +229,13 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
       Parameters own = parameters;
       own.contact.method = method;
       Scene scene = make_scene(own);
-      scene.force = [](double r, double z) { return r * std::cos(z); };
+      scene.force.density = [](double r, double z) { return r * std::cos(z); };
       const Result original = simulate(scene, own).result;
-      const auto road = scene.road, slope = scene.road_slope;
-      scene.road_slope = [slope, power](double z) { return std::ldexp(slope(z), power); };
-      scene.road = [road, power](double z) { return std::ldexp(road(z), power); };
-      scene.force = [power](double r, double z) { return std::ldexp(r * std::cos(z), power); };
+      scene.phi = {[phi = scene.phi, power](double z) { return std::ldexp(phi(z), power); },
+                   [phi = scene.phi, power](double z) { return std::ldexp(phi.slope(z), power); }};
+      scene.force.density = [power](double r, double z) {
+        return std::ldexp(r * std::cos(z), power);
+      };
       const Result scaled = simulate(scene, own).result;
       EXPECT_EQ(scaled.history.size(), original.history.size());
       EXPECT_EQ(scaled.patch.force, std::ldexp(original.patch.force, power));

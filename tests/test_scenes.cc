@@ -75,8 +75,7 @@ Scene full_circle(double inner_radius, double outer_radius, double angular_veloc
           outer_radius,
           angular_velocity,
           {},
-          [road](double) { return road; },
-          [](double) { return 0.; },
+          {[road](double) { return road; }, [](double) { return 0.; }},
           dealii::numbers::PI / 2,
           5 * dealii::numbers::PI / 2};
 }

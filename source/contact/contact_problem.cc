@@ -32,10 +32,10 @@ ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) 
   ContactProblem problem;
   problem.road.reinit(nodes.size());
   problem.weight.reinit(nodes.size());
-  problem.shape = scene.road_at(scene.road_distance);
+  problem.shape = scene.road;
   problem.unit = 1 / scene.units.of(Quantity::force_density);
   for (unsigned int i = 0; i < nodes.size(); ++i) {
-    problem.road(i) = scene.road(nodes[i].angle);
+    problem.road(i) = scene.phi(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;
     problem.x.push_back(from_lowest_point(nodes[i].angle));
   }

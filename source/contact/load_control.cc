@@ -35,7 +35,7 @@ struct Bracket {
 
   explicit Bracket(const Scene& scene)
       : near(scene.least_distance), // the inside of a drum ends where its axis is the axle's
-        far(scene.road_curvature < 0 ? -1 / scene.road_curvature
+        far(scene.road.curvature < 0 ? -1 / scene.road.curvature
                                      : std::numeric_limits<double>::infinity()) {}
 
   /// @param excess of the load at a distance over the wanted one
@@ -122,7 +122,7 @@ Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, con
   // The nodes at the ends come and go alike after each cell: two cells average over them.
   constexpr double n_cells = 2;
   const Bracket limits(scene);
-  const double c = scene.road_distance;
+  const double c = scene.road.distance;
   const double step = std::min(
       {approach_of_growth(problem, solution, rate, space.dof_handler().get_fe().degree, n_cells) /
            2,
@@ -148,7 +148,7 @@ RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, 
   const auto [wanted, kind] = *scene.load;
   const Bracket limits(scene);
   Bracket bracket = limits;
-  RoadPosition road = {scene.road_distance, 0, start};
+  RoadPosition road = {scene.road.distance, 0, start};
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
     const ContactProblem problem = make_contact_problem(space, with_distance(scene, road.distance));
     const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);

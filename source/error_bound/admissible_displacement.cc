@@ -41,8 +41,7 @@ double root(const Function& function, double left, double right, double at_left,
 
 AdmissibleTrace::AdmissibleTrace(const RingSpace& space, const Scene& scene,
                                  const FieldVector& field, const std::vector<bool>& active)
-    : road(scene.road), road_slope(scene.road_slope),
-      shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {
+    : phi(scene.phi), shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {
   const std::vector<double> values = space.surface_values(field);
   for (const SurfaceFace& face : space.surface_faces()) {
     Edge edge{face.begin, face.end, {}, {}};
@@ -113,7 +112,7 @@ void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end
 
 AdmissibleTrace::ValueAndSlope AdmissibleTrace::excess(const Edge& edge, double t) const {
   const double length = edge.end - edge.begin, z = edge.begin + t * length;
-  ValueAndSlope excess = {-road(z), -road_slope(z)};
+  ValueAndSlope excess = {-phi(z), -phi.slope(z)};
   double both[2];
   for (unsigned int i = 0; i < shapes.size(); ++i) {
     shapes[i].value(t, 1, both);

@@ -137,12 +137,12 @@ unsigned int place_of(double value, const std::vector<double>& list) {
 } // namespace
 
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
-    : uniform(scene.uniform_force.has_value()),
+    : uniform(scene.force.uniform.has_value()),
       angular(space.dof_handler().get_fe().degree + (uniform ? 1 : 3)),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (uniform)
-    take_uniform(space, *scene.uniform_force, shapes);
+    take_uniform(space, *scene.force.uniform, shapes);
   else
     take_expression(space, scene, shapes);
 }

@@ -15,7 +15,7 @@ namespace {
 /// Half the width of the zoom, in units of b: the contact and half as much on both sides, or the
 /// gap.
 double zoom_of(const Scene& scene, const Result& result) {
-  const double gap = scene.road_distance / scene.outer_radius - 1;
+  const double gap = scene.road.distance / scene.outer_radius - 1;
   if (!result.patch.ends)
     return std::max(0.2, 3 * gap);
   return 1.5 * std::max(std::abs(from_lowest_point(result.patch.ends->first)),
@@ -29,14 +29,14 @@ std::string title_of(const Scene& scene, const Result& result) {
   title.precision(4);
   title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  "
         << (is_given ? "omega / critical = " : "omega b = ") << scene.angular_velocity * b
-        << ",  c / b = " << scene.road_distance / b << ",  a / b = " << scene.inner_radius / b;
+        << ",  c / b = " << scene.road.distance / b << ",  a / b = " << scene.inner_radius / b;
   if (is_given)
     title << ",  F = " << result.patch.force * scene.units.of(Quantity::force)
           << scene.units.after(Quantity::force);
   else
     title << ",  F / b = " << result.patch.force / b;
-  if (scene.road_curvature != 0)
-    title << ",  kappa b = " << scene.road_curvature * b;
+  if (scene.road.curvature != 0)
+    title << ",  kappa b = " << scene.road.curvature * b;
   return title.str();
 }
 
@@ -60,7 +60,7 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
   add_surface(result.surface.front());
   script << "EOD\n$road << EOD\n";
   for (const auto& [x, y] :
-       points_of_road(scene, 4 * std::max(scene.outer_radius, scene.road_distance)))
+       points_of_road(scene, 4 * std::max(scene.outer_radius, scene.road.distance)))
     script << x / scene.outer_radius << ' ' << y / scene.outer_radius << '\n';
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
@@ -146,9 +146,9 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   for (const SurfacePoint& point : result.surface)
     largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
   script << "a = " << scene.inner_radius / scene.outer_radius
-         << "\nc = " << scene.road_distance / scene.outer_radius << "\nhalf = 1.08 * "
+         << "\nc = " << scene.road.distance / scene.outer_radius << "\nhalf = 1.08 * "
          << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
-         << "\nroad_side = '" << (scene.road_curvature > 0 ? "closed" : "y1=-10")
+         << "\nroad_side = '" << (scene.road.curvature > 0 ? "closed" : "y1=-10")
          << "'\nheight = " << 2 * zoom * ratio << "\nset multiplot title '"
          << title_of(scene, result) << "'\n"
          << pictures;

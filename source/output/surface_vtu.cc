@@ -50,7 +50,7 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
 } // namespace
 
 std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double longest) {
-  const double kappa = scene.road_curvature, c = scene.road_distance;
+  const double kappa = scene.road.curvature, c = scene.road.distance;
   const double most = numbers::PI * (kappa > 0 ? 1 : 0.5);
   const double half = std::abs(kappa) * longest > most ? most / std::abs(kappa) : longest;
   constexpr int n = 400;
@@ -70,7 +70,8 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
                pressure_unit = scene.units.of(Quantity::pressure);
   std::vector<double> radius, angle, displacement, pressure, gap;
   const auto add = [&](const SurfacePoint& point, double turn) {
-    const double z = point.angle, road = scene.has_road_at(z) ? scene.road(z) : b;
+    const double z = point.angle,
+                 road = scene.road.is_visible(from_lowest_point(z)) ? scene.phi(z) : b;
     radius.push_back((b + point.displacement) * length);
     angle.push_back(z + turn);
     displacement.push_back(point.displacement * length);
@@ -93,7 +94,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
 std::string road_vtu(const Scene& scene) {
   std::vector<double> radius, angles;
   for (const auto& [x, y] :
-       points_of_road(scene, 2 * std::max(scene.outer_radius, scene.road_distance))) {
+       points_of_road(scene, 2 * std::max(scene.outer_radius, scene.road.distance))) {
     radius.push_back(std::hypot(x, y) * scene.units.length);
     angles.push_back(1.5 * numbers::PI + std::atan2(x, -y));
   }

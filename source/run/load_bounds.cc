@@ -34,7 +34,7 @@ double best_step(const Scene& scene, const CertifiedError& error, double stiffne
   const double step = stiffness > 0
                           ? std::sqrt(2 * (error.upper_bound - error.lower_bound) / stiffness)
                           : 1e-3 * (scene.outer_radius - scene.inner_radius);
-  return std::min(step, (scene.road_distance - scene.inner_radius) / 2);
+  return std::min(step, (scene.road.distance - scene.inner_radius) / 2);
 }
 
 } // namespace
@@ -44,7 +44,7 @@ Bounds bound_load(const RunOptions& options, const RingSpace& space, const MeshS
   const auto energy = [&](double distance) {
     return certified_energy(options, space, solution, distance, cache, work);
   };
-  const double c = solution.scene.road_distance;
+  const double c = solution.scene.road.distance;
   const double step =
       best_step(solution.scene, error, solution.resultants.stiffness.work_conjugate);
   const Bounds near = energy(c - step), far = energy(c + step);
@@ -58,7 +58,7 @@ std::optional<Bounds> bound_distance(const RunOptions& options, const RingSpace&
   const auto energy = [&](double distance) {
     return certified_energy(options, space, solution, distance, cache, work);
   };
-  const double c = solution.scene.road_distance, load = solution.scene.load->value;
+  const double c = solution.scene.road.distance, load = solution.scene.load->value;
   for (double step =
            1.5 * best_step(solution.scene, error, solution.resultants.stiffness.work_conjugate);
        step < 0.01 * c; step *= 2) {

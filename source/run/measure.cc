@@ -50,7 +50,7 @@ Result measure(const RingSpace& space, const MeshSolution& solution) {
   const ContactState& state = solution.contact.state;
   Result result = {};
   result.mesh = describe_mesh(space);
-  result.road_distance = solution.scene.road_distance;
+  result.road_distance = solution.scene.road.distance;
   result.patch = solution.resultants;
   result.energy = solution.energy;
   result.residuals = solution.residuals;

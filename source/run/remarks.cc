@@ -17,8 +17,8 @@ namespace {
 double depth_outside(const Scene& scene, const Result& result) {
   double depth = 0;
   for (const SurfacePoint& point : result.surface)
-    if (!scene.is_in_zone(point.angle) && scene.has_road_at(point.angle))
-      depth = std::max(depth, point.displacement - scene.road(point.angle));
+    if (!scene.is_in_zone(point.angle) && scene.road.is_visible(from_lowest_point(point.angle)))
+      depth = std::max(depth, point.displacement - scene.phi(point.angle));
   return depth;
 }
 
@@ -28,7 +28,7 @@ bool passes_road(const Scene& scene, const RingSpace& space, const Result& resul
   for (const SurfaceFace& face : space.surface_faces()) {
     const double length = face.end - face.begin;
     const auto gap = [&](double t) {
-      double gap = scene.road(face.begin + t * length);
+      double gap = scene.phi(face.begin + t * length);
       for (unsigned int k = 0; k < shapes.size(); ++k)
         gap -= shapes[k].value(t) * result.surface[face.nodes[k]].displacement;
       return gap;
@@ -71,7 +71,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   std::vector<std::string> remarks;
   const auto& ends = result.patch.ends;
   const unsigned int active_nodes = result.patch.active_nodes;
-  const double tangent = scene.road_at(scene.road_distance).tangent_angle();
+  const double tangent = scene.road.tangent_angle();
   const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
   if (ends && !scene.is_whole_circle() && !zone_ends_at_tangent &&
       (ends->first == scene.zone_begin || ends->second == scene.zone_end))

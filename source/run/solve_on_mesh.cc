@@ -59,12 +59,12 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, Wor
   if (!scene.force) {
     cache.force.reset();
     cache.load.reset();
-  } else if (!cache.load || cache.force_text != scene.force_text) {
+  } else if (!cache.load || cache.force_text != scene.force.text) {
     const Work::Phase phase(work, "assembly");
     RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
     cache.force = std::make_unique<ForceIntegral>(space, scene, shapes);
     cache.load = assemble_load(space, *cache.force, shapes);
-    cache.force_text = scene.force_text;
+    cache.force_text = scene.force.text;
     ++work.load_assemblies;
   }
   if (cache.load)

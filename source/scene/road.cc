@@ -77,4 +77,13 @@ double Road::arc_length(double x) const {
   return curvature == 0 ? sine : std::atan2(curvature * sine, cosine) / curvature;
 }
 
+bool Road::is_visible(double x) const {
+  return curvature < 0 || std::cos(x) > 0;
+}
+
+Obstacle make_obstacle(const Road& road) {
+  return {[road](double z) { return road.displacement(from_lowest_point(z)); },
+          [road](double z) { return road.slope(from_lowest_point(z)); }};
+}
+
 } // namespace rollwave

@@ -87,16 +87,32 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
 double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   double limit = b, margin = 0; // of phi and of the angle
-  if (!scene.has_nonuniform_force()) {
-    limit = std::min(b, scene.uniform_force.value_or(0) * contact_free_unit_displacement(a, b, b));
+  if (!scene.force.is_expression()) {
+    limit = std::min(b, scene.force.uniform.value_or(0) * contact_free_unit_displacement(a, b, b));
     margin = 4 * numbers::PI / angular_cells;
   }
   // With a given load, the nearest road is touched the most, except inside of a drum that the
   // surface can fill: there the top touches as soon as both have the same axis.
-  if (scene.load && scene.road_curvature < 0 && b + limit >= -1 / scene.road_curvature)
+  if (scene.load && scene.road.curvature < 0 && b + limit >= -1 / scene.road.curvature)
     return numbers::PI;
-  const Road road = scene.road_at(scene.load ? scene.least_distance : scene.road_distance);
+  const Road road = scene.load ? scene.road.at(scene.least_distance) : scene.road;
   return std::min({numbers::PI, road.crossing_angle(b), road.crossing_angle(limit) + margin});
+}
+
+BodyForce make_force(const CylinderOptions& cylinder, const Units& units) {
+  const double density = units.of(Quantity::force_density);
+  const double middle = (cylinder.inner_radius + cylinder.outer_radius) / 2;
+  BodyForce force;
+  force.text = text(cylinder.radial_force, " over ", units.material.shear_modulus);
+  const std::optional<double> constant = constant_force(cylinder.radial_force);
+  if (!constant)
+    force.density = [unit = units.length, density, f = parse_force(cylinder.radial_force, middle)](
+                        double r, double z) { return f(unit * r, z) / density; };
+  else if (*constant != 0) { // for 0 no load is ever assembled
+    force.uniform = *constant / density;
+    force.density = [f = *force.uniform](double, double) { return f; };
+  }
+  return force;
 }
 
 } // namespace
@@ -108,10 +124,8 @@ std::string force_not_finite_at(const Scene& scene, double r, double z) {
 }
 
 Scene with_distance(Scene scene, double c) {
-  const Road road = scene.road_at(c);
-  scene.road_distance = c;
-  scene.road = [road](double z) { return road.displacement(from_lowest_point(z)); };
-  scene.road_slope = [road](double z) { return road.slope(from_lowest_point(z)); };
+  scene.road.distance = c;
+  scene.phi = make_obstacle(scene.road);
   return scene;
 }
 
@@ -132,18 +146,9 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.angular_velocity =
       std::min(cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity),
                1 / scene.outer_radius);
-  scene.force_text = text(cylinder.radial_force, " over ", material.shear_modulus);
-  const double force_density = scene.units.of(Quantity::force_density);
-  const std::optional<double> constant = constant_force(cylinder.radial_force);
-  if (!constant)
-    scene.force = [unit, force_density, f = parse_force(cylinder.radial_force, (a + b) / 2)](
-                      double r, double z) { return f(unit * r, z) / force_density; };
-  else if (*constant != 0) { // for 0 no load is ever assembled
-    scene.uniform_force = *constant / force_density;
-    scene.force = [f = *scene.uniform_force](double, double) { return f; };
-  }
+  scene.force = make_force(cylinder, scene.units);
   scene.has_given_zone = road.contact_zone.has_value();
-  scene.road_curvature = road.curvature * unit;
+  scene.road = {scene.outer_radius, distance / unit, road.curvature * unit};
   scene.least_distance = least_distance / unit;
   if (road.load)
     scene.load = Scene::Load{*road.load / scene.units.of(Quantity::force), road.load_kind};

@@ -147,7 +147,7 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
 const std::optional<ExactSolution>& StudySolver::exact_solution(const RunPlan& plan,
                                                                 const Scene& scene) {
   const auto [known, is_first] =
-      exact_solutions.try_emplace({settings_of(plan, Affects::scene), scene.road_distance});
+      exact_solutions.try_emplace({settings_of(plan, Affects::scene), scene.road.distance});
   if (is_first)
     known->second = find_exact_solution(scene);
   return known->second;

@@ -21,7 +21,7 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
       *why_none = why;
     return {};
   };
-  if (scene.has_nonuniform_force())
+  if (scene.force.is_expression())
     return give_up("Cylinder/Radial force is not constant");
   const double left = 3 * numbers::PI / 2 - scene.zone_begin;
   const double right = scene.zone_end - 3 * numbers::PI / 2;
@@ -30,8 +30,8 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
     return give_up("Road/Contact zone leaves out the lowest point");
   try {
     const ExactSolution exact = solve_exactly(
-        {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road_distance,
-         scene.uniform_force.value_or(0), narrow, scene.road_curvature});
+        {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road.distance,
+         scene.force.uniform.value_or(0), narrow, scene.road.curvature});
     if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
       return give_up("Road/Contact zone cuts the contact short on one side, or unevenly");
     return exact;
@@ -53,7 +53,7 @@ std::optional<double> find_exact_distance(const Scene& scene) {
   std::uintmax_t most_evaluations = 60;
   try {
     const auto [near, far] = boost::math::tools::bracket_and_solve_root(
-        excess, scene.road_distance, 1 + first_step, false,
+        excess, scene.road.distance, 1 + first_step, false,
         boost::math::tools::eps_tolerance<double>(bits), most_evaluations);
     return (near + far) / 2;
   } catch (const std::exception&) {

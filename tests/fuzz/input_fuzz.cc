@@ -49,9 +49,9 @@ void read(const std::string& text) {
   require(0 < scene.inner_radius && scene.inner_radius < scene.outer_radius, "0 < a < b");
   require(scene.zone_begin < scene.zone_end, "z0 < z1");
   const double middle = (scene.zone_begin + scene.zone_end) / 2;
-  require(std::isfinite(scene.road(middle)), "the road is finite");
+  require(std::isfinite(scene.phi(middle)), "the road is finite");
   if (scene.force)
-    require(!std::isnan(scene.force(scene.outer_radius, middle)) || !scene.uniform_force,
+    require(!std::isnan(scene.force(scene.outer_radius, middle)) || !scene.force.uniform,
             "a uniform force is a number");
 
   const std::string text_of_parameters = printed(settings);

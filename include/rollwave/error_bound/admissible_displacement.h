@@ -68,8 +68,7 @@ private:
   ValueAndSlope excess(const Edge& edge, double t) const; ///< u_h - phi
   void find_pieces(Edge& edge, double zone_begin, double zone_end) const;
 
-  std::function<double(double)> road;
-  std::function<double(double)> road_slope;
+  Obstacle phi;
   std::vector<dealii::Polynomials::Polynomial<double>> shapes;
   std::vector<Edge> edges;
 };

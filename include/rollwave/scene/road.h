@@ -1,6 +1,8 @@
 #ifndef ROLLWAVE_SCENE_ROAD_H
 #define ROLLWAVE_SCENE_ROAD_H
 
+#include <functional>
+
 namespace rollwave {
 
 /// x = z - 3 pi/2, the angle from the lowest point, to the accuracy of z: 3 pi/2 is taken in two
@@ -40,6 +42,13 @@ struct Road {
   /// The angle up to which the axle sees the road: asin(1 / m) of a drum, pi of other roads.
   double tangent_angle() const;
 
+  /// True if the axle sees the road in the direction of @p x, as it does all around inside of a
+  /// drum, and below itself otherwise.
+  bool is_visible(double x) const;
+
+  /// The same road at the distance @p c.
+  Road at(double c) const { return {outer_radius, c, curvature}; }
+
   /// The length of the road between its lowest point and the angle x, up to the tangent:
   /// (asin(m sin x) - x) / kappa, the arc of the circle, which is c tan x for kappa = 0.
   double arc_length(double x) const;
@@ -47,6 +56,17 @@ struct Road {
 private:
   double root(double x) const; ///< S, 0 beyond the tangent
 };
+
+/// phi(z), the displacement at which the surface touches the road, and its slope dphi/dz.
+struct Obstacle {
+  std::function<double(double z)> displacement;
+  std::function<double(double z)> slope;
+
+  double operator()(double z) const { return displacement(z); }
+};
+
+/// That of a road.
+Obstacle make_obstacle(const Road& road);
 
 } // namespace rollwave
 

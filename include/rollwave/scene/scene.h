@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_SCENE_SCENE_H
 #define ROLLWAVE_SCENE_SCENE_H
 
+#include "rollwave/scene/body_force.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 
@@ -67,14 +68,8 @@ struct Scene {
   double outer_radius;     ///< b, a length
   double angular_velocity; ///< omega, one over a length (the wave speed is 1)
 
-  /// f(r, z), a force density, z in [0, 2 pi); empty when there is none.
-  std::function<double(double r, double z)> force;
-
-  /// phi(z): the displacement at which the surface touches the road, a length.
-  std::function<double(double z)> road;
-
-  /// dphi/dz
-  std::function<double(double z)> road_slope;
+  BodyForce force;
+  Obstacle phi; ///< that of the road
 
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
   double zone_end;   ///< z1 in (z0, z0 + 2 pi]; the zone may be the whole circle
@@ -92,20 +87,11 @@ struct Scene {
     return zone_end - zone_begin >= 2 * dealii::numbers::PI - angular_round_off;
   }
 
-  std::string force_text = {}; ///< the user's expression and modulus, which make f
-
-  /// f where it is a constant that is known, so that its integrals need no quadrature.
-  std::optional<double> uniform_force = {};
-
-  /// Whether f is no number.
-  bool has_nonuniform_force() const { return force && !uniform_force; }
-
   Units units = {}; ///< in the user's
 
-  double road_distance = 0;  ///< c, a length
-  double road_curvature = 0; ///< kappa, one over a length
+  Road road = {}; ///< whose distance is a guess where the load is given
 
-  /// The load that tells the distance, a length; road_distance is a guess then.
+  /// The load that is given instead of the distance, a length.
   struct Load {
     double value;
     LoadKind kind;
@@ -113,13 +99,6 @@ struct Scene {
   std::optional<Load> load = {};
   double least_distance = 0;   ///< the road can be no nearer than this
   bool has_given_zone = false; ///< whether the user has given the zone
-
-  /// True if the axle sees the road in the direction of @p z, as it does all around inside of a
-  /// drum, and below itself otherwise.
-  bool has_road_at(double z) const { return road_curvature < 0 || std::sin(z) < 0; }
-
-  /// The road at the distance @p c.
-  Road road_at(double c) const { return {outer_radius, c, road_curvature}; }
 
   /// A zone around [z0, z1] that holds those of all scenes on the same mesh, where there are
   /// several.
