@@ -103,6 +103,19 @@ TEST(ForceIntegral, MissesNoMoreThanItSays) {
     }
 }
 
+// Between any two points of the rules, and close to one.
+TEST(ForceIntegral, SeesAJumpAlongRWhereverItIs) {
+  for (const unsigned int degree : {1, 2, 4})
+    for (int k = 1; k <= 50; ++k) {
+      const double place = 0.75 + 0.125 * k / 51;
+      const auto exact = [place](double r, double) {
+        return r < place ? (place * place - r * r) / 2 : 0;
+      };
+      OnMesh force("if(r<" + digits(place) + ",1,0)", degree, "4", "8");
+      EXPECT_LE(force.distance_to(exact), force.integral.error()) << place << ", degree " << degree;
+    }
+}
+
 TEST(ForceIntegral, IsRefusedWhereTheForceIsNotFinite) {
   const Parameters parameters = parameters_of({"Cylinder/Radial force=if(z<3,1/(r-r),1)"});
   try {

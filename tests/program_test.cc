@@ -358,6 +358,7 @@ TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
   EXPECT_NE(refused.text.find("Wanted relative error"), std::string::npos) << refused.text;
 }
 
+// As the parameter files say.
 TEST_F(Program, AdaptivePaperFiguresNeedFewUnknowns) {
   for (const char* file : {"figure-4-adaptive.prm", "figure-5-adaptive.prm"}) {
     const Outcome outcome =
@@ -365,7 +366,7 @@ TEST_F(Program, AdaptivePaperFiguresNeedFewUnknowns) {
               "' --set Output/Files=summary --output '" + (directory / "out").string() + "'");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
     const auto json = nlohmann::json::parse(read("summary.json"));
-    EXPECT_LE(json["mesh"]["dofs"], 20000) << file;
+    EXPECT_LE(json["mesh"]["dofs"], 25000) << file;
     EXPECT_LE(json["error"]["exact_relative"], 1e-4) << file;
     const auto& cycles = json["cycles"];
     for (unsigned int i = 1; i < cycles.size(); ++i)

@@ -85,8 +85,9 @@ TEST(RandomForces, HaveEnclosuresOfTheEnergyThatMeet) {
     const CertifiedError coarse = certify(1), fine = certify(4);
     EXPECT_LE(coarse.lower_bound, fine.upper_bound) << i << " a = " << a << " " << force;
     EXPECT_GE(coarse.upper_bound, fine.lower_bound) << i << " a = " << a << " " << force;
+    // delta goes with h^(1/2) where a force jumps along z: to a half.
     narrowed +=
-        (fine.upper_bound - fine.lower_bound) < 0.5 * (coarse.upper_bound - coarse.lower_bound);
+        (fine.upper_bound - fine.lower_bound) < 0.6 * (coarse.upper_bound - coarse.lower_bound);
   }
   EXPECT_GT(narrowed, 0.75 * n_scenes);
 }

@@ -36,25 +36,35 @@ std::vector<double> nodal_pressures(const RingSpace& space, const Scene& scene,
 }
 
 /// Moves forces off the edges beyond a vertex where contact ends: they would lie under a gap there.
+/// They stay if the pressure, continued along a line from the edge in contact, does not end within
+/// a third of the edge: the multiple of 1 - t nearest to 1 - t / t_0 is positive for t_0 > 1/3.
 void move_into_contact(const std::vector<SurfaceFace>& faces, const std::vector<double>& pressures,
                        std::vector<EdgePressure>& edges) {
   const auto n_pressed = [&](unsigned int edge) {
     return std::count_if(faces[edge].nodes.begin(), faces[edge].nodes.end(),
                          [&](unsigned int node) { return pressures[node] > 0; });
   };
-  const auto move = [&](unsigned int from, unsigned int to) {
+  const unsigned int degree = faces.front().nodes.size() - 1;
+  const double first_node = QGaussLobatto<1>(degree + 1).point(1)[0];
+  const auto move = [&](unsigned int from, unsigned int to, unsigned int vertex_of_to) {
     const bool is_in_zone = edges[to].mean > 0;
     if (n_pressed(from) != 1 || n_pressed(to) < 2 || !is_in_zone)
       return;
-    edges[to].mean += edges[from].mean * (faces[from].end - faces[from].begin) /
-                      (faces[to].end - faces[to].begin);
+    const auto& nodes = faces[to].nodes;
+    const double last = pressures[nodes[vertex_of_to]],
+                 before = pressures[nodes[vertex_of_to == 0 ? 1 : degree - 1]];
+    const double length = faces[from].end - faces[from].begin,
+                 length_inside = faces[to].end - faces[to].begin;
+    if (last * first_node * length_inside >= (before - last) * length / 3)
+      return;
+    edges[to].mean += edges[from].mean * length / length_inside;
     edges[from] = {0, 0};
   };
   for (unsigned int i = 0; i < faces.size(); ++i) {
     const unsigned int next = (i + 1) % faces.size();
     if (pressures[faces[next].nodes.front()] > 0) {
-      move(i, next);
-      move(next, i);
+      move(i, next, 0);
+      move(next, i, degree);
     }
   }
 }

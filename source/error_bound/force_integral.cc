@@ -27,8 +27,9 @@ using Cell = DoFHandler<2>::active_cell_iterator;
 /// Lines z = const through each cell on which G is compared with G_h.
 constexpr unsigned int n_lines = 32;
 
-/// How many times as many points the finer rule along r has.
-constexpr unsigned int finer = 4;
+/// Into how many parts rules along r cut the intervals between the ends of cells, and the finer
+/// rules each interval again.
+constexpr unsigned int n_parts = 4;
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().
 std::vector<double> all_radii(const RingSpace& space) {
@@ -76,20 +77,32 @@ std::vector<double> integrate_inwards(const std::vector<double>& radii, const Qu
   return integrals;
 }
 
+/// The place of a value in an increasing list.
+unsigned int place_of(double value, const std::vector<double>& list) {
+  return std::lower_bound(list.begin(), list.end(), value) - list.begin();
+}
+
+/// The largest distance between neighbours in an increasing list.
+double widest_step(const std::vector<double>& list) {
+  std::vector<double> steps(list.size());
+  std::adjacent_difference(list.begin(), list.end(), steps.begin());
+  return *std::max_element(steps.begin() + 1, steps.end());
+}
+
 /// G between two angles.
 struct SectorSamples {
   std::vector<std::vector<double>> lines;     ///< at some radii, on the lines of the rule along z
   std::vector<double> missed_along_r;         ///< of the middle line
   std::vector<double> missed_along_z_squared; ///< mean squares of G - G_h, at the ends of cells
-  double widest_gap;                          ///< between the points of the finer rule
+  double widest_gap;                          ///< between the points of the finer rules
 };
 
-/// @param rule along z
-/// @param lagrange polynomials of its points
+/// @param gauss rule along r between the radii
+/// @param rule along z; @p lagrange are the polynomials of its points
 /// @param ends of cells along r
 /// @param radii with the ends among them
 /// @throws BadValue where f is not finite
-SectorSamples sample_sector(const Scene& scene, const Quadrature<1>& rule,
+SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Quadrature<1>& rule,
                             const std::vector<Polynomials::Polynomial<double>>& lagrange,
                             const std::vector<double>& ends, const std::vector<double>& radii,
                             double begin, double length) {
@@ -102,12 +115,21 @@ SectorSamples sample_sector(const Scene& scene, const Quadrature<1>& rule,
       return r * f;
     });
   };
-  const QGauss<1> gauss(2);
+  // From one end of cells to the next by the same points on all processes, whatever cells they own.
+  const auto from_surface = [&](double t, const Quadrature<1>& along_r) {
+    const std::vector<double> at_ends = on_line(t, ends, QIterated<1>(along_r, n_parts));
+    std::vector<double> line = on_line(t, radii, along_r);
+    for (unsigned int k = 0; k < radii.size(); ++k) {
+      const unsigned int next = place_of(radii[k], ends);
+      line[k] += at_ends[next] - line[place_of(ends[next], radii)];
+    }
+    return line;
+  };
   const QMidpoint<1> midpoint;
   SectorSamples samples{{}, {}, std::vector<double>(ends.size()), 0};
   std::vector<std::vector<double>> coarse_lines;
   for (const Point<1>& point : rule.get_points()) {
-    samples.lines.push_back(on_line(point[0], radii, gauss));
+    samples.lines.push_back(from_surface(point[0], gauss));
     coarse_lines.push_back(on_line(point[0], ends, midpoint));
   }
   for (unsigned int i = 0; i < n_lines; ++i) {
@@ -120,18 +142,19 @@ SectorSamples sample_sector(const Scene& scene, const Quadrature<1>& rule,
       samples.missed_along_z_squared[k] += missed[k] * missed[k] / n_lines;
     }
   }
-  const unsigned int middle = rule.size() / 2;
-  samples.missed_along_r = on_line(rule.point(middle)[0], radii, QIterated<1>(gauss, finer));
-  for (unsigned int k = 0; k < radii.size(); ++k)
-    samples.missed_along_r[k] -= samples.lines[middle][k];
-  for (unsigned int k = 0; k + 1 < radii.size(); ++k) // that of Gauss' two points
-    samples.widest_gap = std::max(samples.widest_gap, 0.5774 * (radii[k + 1] - radii[k]) / finer);
+  const unsigned int middle = rule.size() / 2, n = gauss.size();
+  // One finer rule may agree by chance where all are off: with a jump on the same side of all
+  // points in an interval. Two do not agree at the same jumps.
+  samples.missed_along_r.resize(radii.size());
+  for (const auto& finer_rule :
+       {QIterated<1>(gauss, n_parts), QIterated<1>(QGaussLobatto<1>(n + 1), n_parts)}) {
+    const std::vector<double> line = from_surface(rule.point(middle)[0], finer_rule);
+    for (unsigned int k = 0; k < radii.size(); ++k)
+      samples.missed_along_r[k] += std::abs(line[k] - samples.lines[middle][k]);
+  }
+  const double widest = (gauss.point(n / 2)[0] - gauss.point(n / 2 - 1)[0]) / n_parts;
+  samples.widest_gap = widest * std::max(widest_step(ends) / n_parts, widest_step(radii));
   return samples;
-}
-
-/// The place of a value in an increasing list.
-unsigned int place_of(double value, const std::vector<double>& list) {
-  return std::lower_bound(list.begin(), list.end(), value) - list.begin();
 }
 
 } // namespace
@@ -139,6 +162,7 @@ unsigned int place_of(double value, const std::vector<double>& list) {
 ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes)
     : uniform(scene.force.uniform.has_value()),
       angular(space.dof_handler().get_fe().degree + (uniform ? 1 : 3)),
+      inwards(space.dof_handler().get_fe().degree + 1),
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (uniform)
@@ -194,7 +218,8 @@ void ForceIntegral::take_sector(const Scene& scene, const std::vector<double>& m
                                  mesh_radii.end());
   radii.insert(radii.end(), ends.begin(), ends.end());
   std::sort(radii.begin(), radii.end());
-  const SectorSamples samples = sample_sector(scene, angular, lagrange, ends, radii, begin, length);
+  const SectorSamples samples =
+      sample_sector(scene, inwards, angular, lagrange, ends, radii, begin, length);
 
   width = std::max({width, samples.widest_gap, scene.outer_radius * length / (n_lines - 1)});
   for (const Cell& cell : cells) {

@@ -24,8 +24,8 @@ struct EdgePressure {
  *
  * Each has the mean of the discrete pressure and the difference of its values at the vertices, at
  * most 2 mean, which is as far as lambda >= 0. For degree 1 the slope is zero: the primitive of
- * lambda on r = b is a StressFunction of this degree. Where contact ends at a vertex, the edge in
- * contact gets the share of the edge outside, which would lie under the gap.
+ * lambda on r = b is a StressFunction of this degree. Where contact ends close to a vertex, the
+ * edge in contact gets the share of the edge outside, which would lie under the gap.
  */
 std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Scene& scene,
                                                const ContactSolution& contact);

@@ -21,18 +21,19 @@ struct Scene;
  * in the form of a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For an expression
  * G_h is, on each cell, the polynomial that equals G at the points of rule() along z and of
  * RadialShapes along r; G there is a sum of Gauss' rules between the radii from the surface
- * inwards.
+ * inwards, with degree + 1 points each: fewer would let the energy err by more than the mesh does.
  *
  * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
  *
  *     delta = (int (G - G_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
  *
- * delta is estimated on each cell from the highest coefficients of G_h along r, from a rule along r
- * with four times as many points on one line, and from G at the ends of the cell on 32 lines. The
- * last two are charged twice: a jump may lie anywhere between two points, and so much covers the
- * rest of an integral of |r - r_0|^(-s) for s < 1/2, where f is square-integrable. The estimate
- * assumes that f is square-integrable and that these points see it: a strip that is narrower than
- * they are apart may be missed, and so may a spot smaller than a cell.
+ * delta is estimated on each cell from the highest coefficients of G_h along r, from two finer
+ * rules along r on one line, Gauss' and Lobatto's on quarters of the intervals, and from G at the
+ * ends of the cell on 32 lines. The last two are charged twice: a jump may lie anywhere between two
+ * points, and so much covers the rest of an integral of |r - r_0|^(-s) for s < 1/2, where f is
+ * square-integrable. The estimate assumes that f is square-integrable and that these points see it:
+ * a strip that is narrower than they are apart may be missed, and so may a spot smaller than a
+ * cell.
  */
 class ForceIntegral {
 public:
@@ -83,6 +84,7 @@ private:
 
   const bool uniform;
   const dealii::QGauss<1> angular;
+  const dealii::QGauss<1> inwards; ///< the rule between neighbouring radii
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
 
   /// G_h of each active cell at all radii on the first line, then on the next.
