@@ -71,7 +71,7 @@ test)
   build all build -DBUILD_TESTING=ON
   if [ "${1:-}" = --long ]; then
     export ROLLWAVE_RANDOM_SCENES=300
-    set -- -R 'Random' "${@:2}"
+    set -- -R random "${@:2}"
   fi
   exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
   ;;

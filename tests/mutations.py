@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Small faults in the mathematics, each of which a test must find: a sign, a factor, an index.
+
+Usage: mutations.py BUILD      in a clone of its own, whose sources it changes and restores
+"""
+import pathlib
+import subprocess
+import sys
+
+MUTATIONS = [  # file, what stands there, the fault
+    ('contact/active_set', 'next[i] = pressure(i) >= least_pressure', 'next[i] = pressure(i) <= least_pressure'),
+    ('contact/active_set', 'next[i] = gap(i) < least_gap', 'next[i] = gap(i) < -least_gap'),
+    ('contact/active_set', 'keep_first_change(solution.active, next);', ';'),
+    ('contact/contact_problem', 'loads.vertical += force(i) * std::cos', 'loads.vertical += force(i) * std::sin'),
+    ('contact/contact_problem', 'pressure(i) /= weight(i)', 'pressure(i) *= weight(i)'),
+    ('contact/contact_patch', '1 / (1 + s))', '1 / (1 - s))'),
+    ('contact/contact_patch', 'root_of_gap(2, 4)', 'root_of_gap(1, 4)'),
+    ('contact/contact_patch', 'lowest_point - tangent', 'lowest_point + tangent'),
+    ('contact/contact_patch', '1. / 3 : 1. / 2', '1. / 2 : 1. / 3'),
+    ('contact/load_control', 'stiffness.work_conjugate -=', 'stiffness.work_conjugate +='),
+    ('contact/load_control', '(excess > 0 ? near : far) = distance', '(excess < 0 ? near : far) = distance'),
+    ('contact/uzawa', 'p(i) - rho * (displacement(i) - problem.road(i))', 'p(i) + rho * (displacement(i) - problem.road(i))'),
+    ('error_bound/error_bound', 'eta * eta / 2 -', 'eta * eta -'),
+    ('error_bound/error_bound', 'moment - psi_z - r * v_r', 'moment + psi_z - r * v_r'),
+    ('error_bound/error_bound', 'const double z_part = psi_s + v_z', 'const double z_part = psi_s - v_z'),
+    ('error_bound/error_bound', '2 * weight * scene.outer_radius *', 'weight * scene.outer_radius *'),
+    ('error_bound/error_bound', 'const double energy_norm = eta + delta', 'const double energy_norm = eta'),
+    ('error_bound/error_bound', 'energy_norm / smallest_norm', 'energy_norm / std::sqrt(norm_squared)'),
+    ('error_bound/admissible_displacement', 'return {-above, -slope, 0};', 'return {-above, slope, 0};'),
+    ('error_bound/admissible_displacement', 'return {0, 0, -above};', 'return {0, 0, 0};'),
+    ('error_bound/admissible_displacement', 'std::min(field(dof), problem.road(i))', 'field(dof)'),
+    ('error_bound/admissible_pressure', 'std::clamp(slope, -2 * mean, 2 * mean)', 'std::clamp(slope, -3 * mean, 3 * mean)'),
+    ('error_bound/admissible_pressure', 'std::max(0., contact.state.force', '(contact.state.force'),
+    ('error_bound/force_integral', 'f * (b - r) * (b + r) / 2', 'f * (b - r) * (b + r)'),
+    ('error_bound/stress_function', 'mean - slope * (1 - t) / 2', 'mean + slope * (1 - t) / 2'),
+    ('exact/exact_solution', 'solution.norm_squared / 2 - work_of_f', 'solution.norm_squared / 2 + work_of_f'),
+    ('exact/exact_solution', 'work_of_f - pressure_times_road', 'work_of_f + pressure_times_road'),
+    ('exact/exact_solution', 'late * late / (early - late)', 'late * late / (early + late)'),
+    ('exact/galerkin_pressure', 'free - road.displacement(x)', 'road.displacement(x) - free'),
+    ('exact/galerkin_pressure', 'std::pow(k * w, -2 * nu - 1)', 'std::pow(k * w, -2 * nu)'),
+    ('exact/galerkin_pressure', 'weight.back() -= 2. / 24', 'weight.back() += 2. / 24'),
+    ('exact/bessel_modes', 'return k - x_squared / fraction', 'return k + x_squared / fraction'),
+]
+TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffness*:Load.*:Road.*:FullContact*:Contact*:'
+         'Certificate.*:ForceIntegral*:Stability.*:ExactSolution*:Bessel*:Gegenbauer*:ManufacturedScene*:TrueErrors*')
+
+build = pathlib.Path(sys.argv[1]).resolve()
+root = pathlib.Path(__file__).resolve().parent.parent
+survivors = 0
+for name, right, wrong in MUTATIONS:
+    path = root / f'source/{name}.cc'
+    original = path.read_text()
+    if right not in original:
+        print(f'not there   {name}: {right}', flush=True)
+        continue
+    path.write_text(original.replace(right, wrong, 1))
+    try:
+        built = subprocess.run(['cmake', '--build', build, '--target', 'rollwave_tests'], capture_output=True)
+        run = subprocess.run([build / 'tests/rollwave_tests', '--gtest_brief=1', '--gtest_fail_fast',
+                              f'--gtest_filter={TESTS}'], capture_output=True, text=True)
+    finally:
+        path.write_text(original)
+    if built.returncode != 0:
+        print(f'not built   {name}: {wrong}', flush=True)
+        continue
+    failed = [line for line in run.stdout.splitlines() if 'FAILED  ]' in line]
+    survivors += run.returncode == 0
+    print(f'{"SURVIVED" if run.returncode == 0 else "caught  "}    {name}: {wrong}    '
+          f'{failed[0].split()[3] if failed else ""}', flush=True)
+sys.exit(survivors > 0)
