@@ -4,6 +4,7 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 #include "rollwave/output/output_directory.h"
+#include "rollwave/output/progress_report.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
 #include "rollwave/parameters/parameters.h"
@@ -60,7 +61,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
   if (parameters.study.true_errors)
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
-  Solution solution = simulate(scene, parameters, communicator);
+  Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene.units));
   report_result(out, solution.result, scene.units);
   const auto& directory = parameters.output.directory;
   const WrittenFiles written = write_results(directory, parameters, solution);

@@ -45,11 +45,11 @@ for page in (readme, *own, *cookbook):
     for file in set(re.findall(r'(?<![\w/.$-])prm/[\w/-]+\.prm', page.read_text())):
         require((root / file).exists(), f'{page.name}: {file} is not there')
 
-for page in (doc / 'theory.md', doc / 'house.md'):
-    for name in set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text())) - {'floor/file'}:
+for page in (doc / 'theory.md', doc / 'architecture.md'):
+    for name in set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text())) - {'module/file'}:
         require((root / f'include/rollwave/{name}.h').exists(), f'{page.name}: {name} is not there')
 
-require(len(readme.read_text().splitlines()) <= 100, 'README.md has more than 100 lines')
+require(len(readme.read_text().splitlines()) <= 110, 'README.md has more than 110 lines')
 require(len((doc / 'theory.md').read_text().splitlines()) <= 250, 'theory.md is longer than 250 lines')
 
 for file in sorted((root / 'prm').rglob('*.prm')):

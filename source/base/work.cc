@@ -25,13 +25,15 @@ const std::vector<std::string>& Work::phase_names() {
 }
 
 Work::Phase::Phase(Work& work, const std::string& name)
-    : work(work), seconds(work.seconds_of[checked(name)]), outer(work.innermost) {
+    : work(work), name(checked(name)), outer(work.innermost) {
   work.innermost = this;
 }
 
 Work::Phase::~Phase() {
   const double all = timer.wall_time();
-  seconds += all - inner_seconds;
+  work.seconds_of[name] += all - inner_seconds;
+  if (work.observer)
+    work.observer(name, all - inner_seconds);
   if (outer)
     outer->inner_seconds += all;
   work.innermost = outer;

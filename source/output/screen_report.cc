@@ -55,24 +55,6 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history,
   print_table(out, table);
 }
 
-void report_cycles(std::ostream& out, const std::vector<CycleFigures>& cycles, const Units& units) {
-  TableHandler table;
-  for (unsigned int i = 0; i < cycles.size(); ++i) {
-    table.add_value("cycle", i + 1);
-    table.add_value("cells", cycles[i].cells);
-    table.add_value("unknowns", cycles[i].dofs);
-    table.add_value("contact steps", cycles[i].contact_steps);
-    table.add_value("indicated error" + units.in_brackets(Quantity::energy_norm),
-                    cycles[i].indicated > 0
-                        ? rounded(cycles[i].indicated * units.of(Quantity::energy_norm), 3)
-                        : "-");
-    table.add_value("certified, relative",
-                    cycles[i].certified ? rounded(*cycles[i].certified, 3) : "-");
-  }
-  out << "\nAdaptive refinement\n";
-  print_table(out, table);
-}
-
 /// The first file whose name ends as @p pattern says; empty without one.
 std::string first_file(const WrittenFiles& written, const std::string& pattern) {
   for (const auto& file : written.files)
@@ -179,8 +161,6 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 }
 
 void report_result(std::ostream& out, const Result& result, const Units& units) {
-  if (result.cycles.size() > 1)
-    report_cycles(out, result.cycles, units);
   const MeshFigures& mesh = result.mesh;
   const double length = units.of(Quantity::length);
   out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs

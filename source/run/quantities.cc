@@ -33,7 +33,7 @@ auto of(std::optional<Part> Result::*part, std::optional<double> Part::*number) 
 
 Quantities mesh_quantities() {
   return {
-      {"scene.road.distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
+      {"scene.road_distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
        [](const Result& r) { return r.road_distance; }},
       {"mesh.degree", "degree of the elements", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.mesh.degree; }},

@@ -150,7 +150,8 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
 /// @param pressure to start from
 Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& options,
-                          PressureProfile pressure, Work work, std::vector<CycleFigures>& cycles) {
+                          PressureProfile pressure, Work work, const Progress& progress,
+                          std::vector<CycleFigures>& cycles) {
   for (;;) {
     MeshSolution solution = solve_on_mesh(scene, options, *mesh.space, pressure, mesh.cache, work);
     if (!mesh.is_shared && !options.certificate.load_bounds)
@@ -167,9 +168,14 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
       pressure = pressure_of(*mesh.space, solution);
       const auto indicators = indicate(options, mesh, solution, certificate, work);
       cycles.back().indicated = total(indicators, mesh.communicator());
-      if (mesh.refine(indicators, scene, options, work))
+      if (mesh.refine(indicators, scene, options, work)) {
+        if (progress.mesh_solved)
+          progress.mesh_solved(cycles.size(), cycles.back());
         continue;
+      }
     }
+    if (progress.mesh_solved && cycles.size() > 1)
+      progress.mesh_solved(cycles.size(), cycles.back());
     return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
                   is_stopped, std::move(work));
   }
@@ -210,7 +216,8 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
 
 } // namespace
 
-Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options, Work work) {
+Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options, Work work,
+                  const Progress& progress) {
   const MPI_Comm communicator = mesh.communicator();
   check_simulation(options, count_processes(communicator));
   Start start = {scene, {}};
@@ -225,7 +232,7 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
   std::vector<CycleFigures> cycles;
   try {
     return solve_and_refine(std::move(mesh), start.scene, options, std::move(start.pressure),
-                            std::move(work), cycles);
+                            std::move(work), progress, cycles);
   } catch (const NotEnoughMemory& shortage) {
     if (cycles.empty())
       throw;
@@ -235,11 +242,12 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
   }
 }
 
-Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator) {
+Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                  const Progress& progress) {
   check_simulation(options, count_processes(communicator));
-  Work work;
+  Work work(progress.phase_ended);
   Discretisation mesh(scene, options, communicator, false, work);
-  return simulate(std::move(mesh), scene, options, std::move(work));
+  return simulate(std::move(mesh), scene, options, std::move(work), progress);
 }
 
 } // namespace rollwave

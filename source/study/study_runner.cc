@@ -4,10 +4,13 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
+#include "rollwave/base/text.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_solver.h"
 #include "rollwave/study/study_table.h"
+
+#include <deal.II/base/timer.h>
 
 #include <algorithm>
 #include <fstream>
@@ -54,6 +57,9 @@ void write_tables(const Study& study, const fs::path& directory) {
 bool make_runs(Study& study, const Parameters& parameters, const fs::path& directory,
                std::ostream& out, MPI_Comm communicator) {
   const bool is_first = process_number(communicator) == 0;
+  const dealii::Timer timer;
+  unsigned int n_made = 0;
+  auto n_missing = std::count(study.runs.begin(), study.runs.end(), std::nullopt);
   try {
     StudySolver solver(study.plans, parameters, directory, communicator);
     for (unsigned int run = 0; run < study.runs.size(); ++run) {
@@ -64,7 +70,13 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
         append_to_file(directory / "study-profiles.csv", profile_rows(study, run));
         append_to_file(directory / "study.csv", csv_row(study, run));
       }
-      out << line_of_run(study, run) << std::flush;
+      out << line_of_run(study, run);
+      ++n_made;
+      --n_missing;
+      constexpr unsigned int enough = 3; // to judge the others by
+      if (n_made >= enough && n_missing > 0)
+        out << ", about " << rounded(timer.wall_time() / n_made * n_missing, 2) << " s left";
+      out << std::endl;
     }
   } catch (const Interrupted&) {
     return false;

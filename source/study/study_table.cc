@@ -86,7 +86,7 @@ std::string line_of_run(const Study& study, unsigned int run) {
     line << "F = " << rounded(*force, 6) << study.units().after(Quantity::force) << ", "
          << study.value(run, "iterations.contact").value_or(0) << " steps, "
          << rounded(study.value(run, "seconds.total").value_or(0), 3) << " s, ";
-  line << outcome_of(*study.runs[run]) << '\n';
+  line << outcome_of(*study.runs[run]);
   return line.str();
 }
 

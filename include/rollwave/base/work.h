@@ -3,9 +3,11 @@
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -13,6 +15,11 @@ namespace rollwave {
 /// What a run has done and how long each phase took, so that it can be seen what a scene costs.
 class Work {
 public:
+  /// Called when a phase has ended, with the seconds of this once.
+  using Observer = std::function<void(const std::string& phase, double seconds)>;
+
+  Work(Observer observer = {}) : observer(std::move(observer)) {}
+
   unsigned int load_assemblies = 0;
   unsigned int stiffness_assemblies = 0;
   unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
@@ -39,7 +46,7 @@ public:
 
   private:
     Work& work;
-    double& seconds; ///< of the phase
+    const std::string name;
     Phase* const outer;
     double inner_seconds = 0;
     dealii::Timer timer;
@@ -50,6 +57,7 @@ public:
   double total_seconds() const;
 
 private:
+  Observer observer;
   std::map<std::string, double> seconds_of; ///< phases that have been entered
   Phase* innermost = nullptr;               ///< the phase that is going on
 };

@@ -3,6 +3,7 @@
 
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/run/discretisation.h"
+#include "rollwave/run/progress.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
 #include "rollwave/scene/scene.h"
@@ -41,13 +42,13 @@ void check_simulation(const RunOptions& options, unsigned int n_processes);
  *         Interrupted before the first mesh is solved.
  */
 Solution simulate(const Scene& scene, const RunOptions& options,
-                  MPI_Comm communicator = MPI_COMM_SELF);
+                  MPI_Comm communicator = MPI_COMM_SELF, const Progress& progress = {});
 
 /// The same on a given mesh, which may have served other scenes with the same mesh options and
 /// radii: only what depends on speed, force and zone is computed again where these differ.
 /// @param work the cost of the mesh, where it counts
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  Work work = {});
+                  Work work = Work(), const Progress& progress = {});
 
 } // namespace rollwave
 

@@ -1,4 +1,4 @@
-// The house stands: each floor includes only those below it, and no file grows beyond 300 lines.
+// Each module includes only those below it, and no file grows beyond 300 lines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,21 +12,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> floors = {"base",       "scene",       "exact", "mesh", "solver",
-                                         "contact",    "error_bound", "adapt", "run",  "verify",
-                                         "parameters", "output",      "study"};
+const std::vector<std::string> modules = {"base",       "scene",       "exact", "mesh", "solver",
+                                          "contact",    "error_bound", "adapt", "run",  "verify",
+                                          "parameters", "output",      "study"};
 
-/// The number of a floor, from the ground; files on no floor stand above all.
-std::size_t height(const std::string& floor) {
-  return std::find(floors.begin(), floors.end(), floor) - floors.begin();
+/// The number of a module, from the ground; files on no module stand above all.
+std::size_t height(const std::string& module) {
+  return std::find(modules.begin(), modules.end(), module) - modules.begin();
 }
 
-std::string floor_of(const fs::path& file, const fs::path& root) {
+std::string module_of(const fs::path& file, const fs::path& root) {
   const fs::path relative = fs::relative(file, root);
   return relative.has_parent_path() ? relative.begin()->string() : "";
 }
 
-TEST(Floors, IncludeLowerFloorsOnlyAndFilesAreShort) {
+TEST(Modules, IncludeLowerModulesOnlyAndFilesAreShort) {
   const std::regex include("#include \"rollwave/(?:(\\w+)/)?\\w+\\.h\"");
   unsigned int n_includes = 0;
   for (const fs::path root :
@@ -34,7 +34,7 @@ TEST(Floors, IncludeLowerFloorsOnlyAndFilesAreShort) {
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
       if (!entry.is_regular_file())
         continue;
-      const std::size_t own = height(floor_of(entry.path(), root));
+      const std::size_t own = height(module_of(entry.path(), root));
       std::ifstream lines(entry.path());
       std::string line;
       unsigned int n_lines = 0;

@@ -1,0 +1,16 @@
+#ifndef ROLLWAVE_OUTPUT_PROGRESS_REPORT_H
+#define ROLLWAVE_OUTPUT_PROGRESS_REPORT_H
+
+#include "rollwave/run/progress.h"
+#include "rollwave/scene/units.h"
+
+#include <iosfwd>
+
+namespace rollwave {
+
+/// Prints each phase that takes long when it ends, and a row for each mesh of an adaptive run.
+Progress report_progress(std::ostream& out, const Units& units);
+
+} // namespace rollwave
+
+#endif

@@ -1,0 +1,32 @@
+#include "rollwave/output/progress_report.h"
+
+#include "rollwave/base/text.h"
+
+#include <iomanip>
+#include <ostream>
+
+namespace rollwave {
+
+Progress report_progress(std::ostream& out, const Units& units) {
+  Progress progress;
+  progress.phase_ended = [&out](const std::string& phase, double seconds) {
+    constexpr double long_seconds = 1;
+    if (seconds > long_seconds)
+      out << "  " << phase << ", " << rounded(seconds, 3) << " s\n" << std::flush;
+  };
+  progress.mesh_solved = [&out, units](unsigned int number, const CycleFigures& mesh) {
+    if (number == 1)
+      out << "Adaptive refinement\n"
+          << " mesh    cells unknowns contact steps  indicated error"
+          << units.in_brackets(Quantity::energy_norm) << "  certified, relative\n";
+    const double indicated = mesh.indicated * units.of(Quantity::energy_norm);
+    out << std::setw(5) << number << std::setw(9) << mesh.cells << std::setw(9) << mesh.dofs
+        << std::setw(14) << mesh.contact_steps << std::setw(17)
+        << (mesh.indicated > 0 ? rounded(indicated, 3) : "-") << std::setw(21)
+        << (mesh.certified ? rounded(*mesh.certified, 3) : "-") << '\n'
+        << std::flush;
+  };
+  return progress;
+}
+
+} // namespace rollwave
