@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <random>
@@ -136,6 +137,18 @@ TEST(CholmodFactor, RefusesAnIndefiniteMatrix) {
   CholmodFactor cholesky(2);
   cholesky.set_matrix(triplets);
   EXPECT_THROW(cholesky.factorise(), NotSolved);
+}
+
+TEST(CholmodFactor, StartsNoThreads) {
+  const auto n_threads = [] {
+    using Entries = std::filesystem::directory_iterator;
+    return std::distance(Entries("/proc/self/task"), Entries());
+  };
+  CholmodFactor cholesky(400);
+  cholesky.set_matrix(RandomMatrix(400).triplets);
+  const auto before = n_threads();
+  cholesky.factorise();
+  EXPECT_EQ(n_threads(), before);
 }
 
 class Direct : public testing::TestWithParam<int> {

@@ -7,6 +7,29 @@
 #include <algorithm>
 #include <string>
 
+/**
+ * CHOLMOD enters a parallel region of OpenMP for each of the small blocks that it adds to another,
+ * and libgomp makes a team each time, even of one thread. That is half of a factorisation. As GCC
+ * compiles them, these regions call GOMP_parallel (manual of libgomp, "Implementing PARALLEL
+ * construct"). This definition stands before that of libgomp and runs the @p region on the calling
+ * thread. A CHOLMOD compiled by clang does not call it.
+ *
+ * No team of OpenMP may be active around a call. An OpenBLAS with OpenMP, whose threads would wait
+ * for each other, asks omp_get_max_threads and enters no region then. Rollwave and its other
+ * libraries have no regions.
+ */
+extern "C" {
+__attribute__((visibility("default"))) void GOMP_parallel(void (*region)(void*), void* data,
+                                                          unsigned int /*n_threads*/,
+                                                          unsigned int /*flags*/) {
+  region(data);
+}
+
+__attribute__((visibility("default"))) int omp_get_max_threads() {
+  return 1;
+}
+}
+
 namespace rollwave {
 
 /// CHOLMOD's objects, released together.
