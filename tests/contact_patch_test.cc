@@ -18,7 +18,7 @@ namespace {
 /// Contact between @p left and @p right with the exact end laws of exponent s.
 ContactResultants patch_of(double left, double right, double s, double omega, double begin,
                            double end, unsigned int n, double curvature = 0) {
-  const Scene scene{0.5, 1, omega, {}, {}, {}, begin, end};
+  const Scene scene{0.5, 1, omega, {}, {}, begin, end};
 
   std::vector<SurfaceNode> nodes;
   ContactProblem problem;

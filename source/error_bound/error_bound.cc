@@ -224,17 +224,19 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 
 } // namespace
 
-Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, StressFunction& stress_function, Work& work) {
+Certificate certify(const ContactBoundary& boundary, const Scene& scene,
+                    const ContactProblem& problem, const ContactSolution& contact,
+                    const FieldVector& field, const ForceIntegral* force,
+                    StressFunction& stress_function, Work& work) {
   const Work::Phase phase(work, "certificate");
-  const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
-  const AdmissibleTrace trace(space, scene, displacement, contact.active);
-  const auto pressures = admissible_pressures(space, scene, contact);
+  const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
+  const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
+  const auto pressures = admissible_pressures(boundary, scene, contact);
   const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
   const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, work);
-  auto [integrals, cell_bounds] = integrate(
-      space, scene, {displacement, trace, pressures, potential, force}, stress_function.shapes());
+  auto [integrals, cell_bounds] =
+      integrate(boundary.space(), scene, {displacement, trace, pressures, potential, force},
+                stress_function.shapes());
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};
 }

@@ -77,8 +77,8 @@ constexpr double wanted_residual = 1e-10;
 /// changes, and what the solution they return shall hold to.
 constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
 
-/// The contact conditions at the contact nodes of @p space.
-ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene);
+/// The contact conditions at the nodes of the @p boundary of a scene.
+ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene& scene);
 
 /// One line of the history of a contact iteration.
 struct ContactStep {

@@ -63,13 +63,14 @@ struct Certificate {
   double work_of_force;            ///< (f, v), by G_h
 };
 
-/// Certifies the solution @p contact with the displacement @p field.
+/// Certifies the solution @p contact on the @p boundary of a scene with the displacement @p field.
 /// @param force that of the scene, nullptr without
 /// @param stress_function of the same space and speed
 /// @throws NotSolved when an iteration fails
-Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, StressFunction& stress_function, Work& work);
+Certificate certify(const ContactBoundary& boundary, const Scene& scene,
+                    const ContactProblem& problem, const ContactSolution& contact,
+                    const FieldVector& field, const ForceIntegral* force,
+                    StressFunction& stress_function, Work& work);
 
 } // namespace rollwave
 
