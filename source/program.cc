@@ -98,7 +98,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
-      out << "Note: " << line.file.string() << " sets nothing: the default scene is solved\n";
+      out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
       make_study(study, parameters, communicator, out);
     else

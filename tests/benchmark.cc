@@ -51,11 +51,11 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
 double contact_seconds(const Scene& scene, const Parameters& parameters) {
   const MeshAndSpace ring(scene, parameters); // whose order of elimination is yet to be found
   Work work;
-  DirectSolver solver(ring.space);
-  solver.set_problem(scene, {}, work);
+  DirectSolver solver(ring.boundary);
+  solver.set_problem(scene, ring.boundary, {}, work);
   {
     const Work::Phase phase(work, "contact");
-    const auto contact = active_set(solver, make_contact_problem(ring.space, scene), 100);
+    const auto contact = active_set(solver, make_contact_problem(ring.boundary, scene), 100);
     solver.displacement_field(contact.state);
   }
   return work.total_seconds() - work.seconds("assembly").value_or(0);

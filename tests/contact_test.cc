@@ -27,7 +27,8 @@ public:
   DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
       : stiffness(stiffness), load(load) {}
 
-  void set_problem(const Scene&, const std::optional<FieldVector>&, Work&) override {}
+  void set_problem(const Scene&, const ContactBoundary&, const std::optional<FieldVector>&,
+                   Work&) override {}
   double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
     const unsigned int n = load.size();
     FullMatrix<double> matrix(n, n);
@@ -90,8 +91,8 @@ struct FullCircle {
       : parameters(parameters_of({"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=16",
                                   "Mesh/Angular cells=12"})),
         scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
-        solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
-    solver.set_problem(scene, {}, work);
+        solver(ring.boundary), problem(make_contact_problem(ring.boundary, scene)) {
+    solver.set_problem(scene, ring.boundary, {}, work);
   }
 
   Parameters parameters;
@@ -130,8 +131,8 @@ struct Prepared {
   explicit Prepared(const Parameters& parameters)
       : scene(make_scene(parameters)), ring(scene, parameters),
         load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
-        solver(ring.space), problem(make_contact_problem(ring.space, scene)) {
-    solver.set_problem(scene, load, work);
+        solver(ring.boundary), problem(make_contact_problem(ring.boundary, scene)) {
+    solver.set_problem(scene, ring.boundary, load, work);
   }
 
   Scene scene;

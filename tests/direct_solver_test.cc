@@ -158,8 +158,8 @@ protected:
             parameters_of({"Mesh/Degree=" + std::to_string(GetParam()), "Mesh/Radial cells=2",
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
-        load(assemble_load(ring.space, scene)), solver(ring.space) {
-    solver.set_problem(scene, load, work);
+        load(assemble_load(ring.space, scene)), solver(ring.boundary) {
+    solver.set_problem(scene, ring.boundary, load, work);
   }
 
   const Parameters parameters;
@@ -193,7 +193,7 @@ TEST_P(Direct, StiffnessIsSymmetricAndSumsUpTheCells) {
 }
 
 TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
-  const unsigned int m = ring.space.contact_nodes().size();
+  const unsigned int m = ring.boundary.size();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> value(-1, 1);
   for (int trial = 0; trial < 8; ++trial) {
@@ -212,8 +212,8 @@ TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
     FieldVector imbalance = solver.apply(field);
     imbalance -= *load;
     for (unsigned int i = 0; i < m; ++i) {
-      imbalance(ring.space.contact_nodes()[i].dof) += state.force(i);
-      EXPECT_NEAR(field(ring.space.contact_nodes()[i].dof), state.displacement(i), 1e-13);
+      imbalance(ring.boundary.contact_nodes()[i].dof) += state.force(i);
+      EXPECT_NEAR(field(ring.boundary.contact_nodes()[i].dof), state.displacement(i), 1e-13);
       if (pinned[i])
         EXPECT_EQ(state.displacement(i), given.displacement(i));
       else
@@ -221,6 +221,30 @@ TEST_P(Direct, PinnedProblemsAreInEquilibrium) {
     }
     EXPECT_LT(imbalance.linfty_norm(), 1e-12);
   }
+}
+
+// A solver made for a wider zone answers as one made for the zone.
+TEST_P(Direct, FreesTheCandidatesOutsideOfTheZone) {
+  const ContactBoundary wide(ring.space, {scene.zone_begin - 0.6, scene.zone_end + 0.6});
+  const unsigned int m = ring.boundary.size();
+  ASSERT_GT(wide.size(), m);
+  DirectSolver of_wide(wide);
+  of_wide.set_problem(scene, ring.boundary, load, work);
+  std::vector<bool> pinned(m, true);
+  pinned[m / 2] = false;
+  ContactState one = {Vector<double>(m), Vector<double>(m)};
+  for (unsigned int i = 0; i < m; ++i)
+    one.displacement(i) = -0.1 * std::cos(i);
+  ContactState other = one;
+  solver.solve(pinned, one, 0);
+  of_wide.solve(pinned, other, 0);
+  for (unsigned int i = 0; i < m; ++i) {
+    EXPECT_NEAR(other.displacement(i), one.displacement(i), 1e-13);
+    EXPECT_NEAR(other.force(i), one.force(i), 1e-12);
+  }
+  FieldVector difference = of_wide.displacement_field(other);
+  difference -= solver.displacement_field(one);
+  EXPECT_LT(difference.linfty_norm(), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(Degree, Direct, testing::Values(1, 3));

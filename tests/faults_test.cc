@@ -262,7 +262,7 @@ TEST_F(Faults, InterruptedStudyKeepsItsRunsAndGoesOn) {
   program.await("\n2 of ");
   const Outcome outcome = program.end_by(SIGINT);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
-  EXPECT_NE(outcome.text.find("of 6 runs; the same command goes on"), std::string::npos)
+  EXPECT_NE(outcome.text.find("of 6 runs; rerun the same command"), std::string::npos)
       << outcome.text;
   EXPECT_EQ(outcome.text.find("not solved\n"), std::string::npos) << outcome.text;
   const auto kept = figures_of_study(read("study.csv"));

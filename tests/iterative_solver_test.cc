@@ -28,11 +28,11 @@ using dealii::Vector;
 namespace {
 
 struct Answer {
-  Answer(const Scene& scene, const Parameters& parameters, const RingSpace& space,
+  Answer(const Scene& scene, const Parameters& parameters, const ContactBoundary& boundary,
          const std::string& kind)
-      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), space, {}, cache,
+      : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), boundary, {}, cache,
                               work)),
-        result(measure(space, on_mesh)) {}
+        result(measure(on_mesh)) {}
 
   Work work;
   MeshCache cache;
@@ -40,9 +40,10 @@ struct Answer {
   Result result;
 };
 
-void expect_same_answer(const Scene& scene, const Parameters& parameters, const RingSpace& space) {
-  const Answer direct(scene, parameters, space, "direct");
-  const Answer iterative(scene, parameters, space, "iterative");
+void expect_same_answer(const Scene& scene, const Parameters& parameters,
+                        const ContactBoundary& boundary) {
+  const Answer direct(scene, parameters, boundary, "direct");
+  const Answer iterative(scene, parameters, boundary, "iterative");
 
   EXPECT_EQ(iterative.on_mesh.contact.active, direct.on_mesh.contact.active);
   FieldVector difference = iterative.on_mesh.displacement;
@@ -72,7 +73,7 @@ TEST_P(IterativeKind, AgreesWithTheDirectKind) {
   const Parameters parameters = with(parameters_of({"Certificate/Error bound=false"}), GetParam());
   const Scene scene = make_scene(parameters);
   const Solution solution = simulate(scene, parameters);
-  expect_same_answer(scene, parameters, solution.space());
+  expect_same_answer(scene, parameters, ContactBoundary(solution.space(), scene.zone()));
 }
 
 // Cells that are square, long in r, long in z, and adaptive ones.
@@ -118,10 +119,10 @@ protected:
                                   "Mesh/Adaptive cycles=2", "Certificate/Error bound=false",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), adaptive(simulate(scene, parameters)),
-        space(adaptive.space()), load(assemble_load(space, scene)), direct(space),
-        iterative(space) {
-    direct.set_problem(scene, load, direct_work);
-    iterative.set_problem(scene, load, iterative_work);
+        space(adaptive.space()), boundary(space, scene.zone()), load(assemble_load(space, scene)),
+        direct(boundary), iterative(boundary) {
+    direct.set_problem(scene, boundary, load, direct_work);
+    iterative.set_problem(scene, boundary, load, iterative_work);
   }
 
   /// Random displacements on the pinned nodes, random forces on the others.
@@ -138,6 +139,7 @@ protected:
   const Scene scene;
   const Solution adaptive;
   const RingSpace& space;
+  const ContactBoundary boundary;
   const std::optional<FieldVector> load;
   Work direct_work, iterative_work;
   DirectSolver direct;
@@ -147,7 +149,7 @@ protected:
 };
 
 TEST_F(Kinds, AgreeForAnyPinnedNodes) {
-  const unsigned int m = space.contact_nodes().size();
+  const unsigned int m = boundary.size();
   for (int trial = 0; trial < 6; ++trial) {
     std::vector<bool> pinned(m);
     for (unsigned int i = 0; i < m; ++i)
@@ -173,7 +175,7 @@ TEST_F(Kinds, AgreeForAnyPinnedNodes) {
 }
 
 TEST_F(Kinds, AgreeOnTheCompliance) {
-  Vector<double> force(space.contact_nodes().size());
+  Vector<double> force(boundary.size());
   for (double& nodal : force)
     nodal = value(random);
   Vector<double> difference = iterative.response(force, 1e-12);
@@ -183,7 +185,7 @@ TEST_F(Kinds, AgreeOnTheCompliance) {
 }
 
 TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
-  const std::vector<bool> pinned(space.contact_nodes().size(), true);
+  const std::vector<bool> pinned(boundary.size(), true);
   ContactState state = random_state(pinned);
   iterative.solve(pinned, state, 1e-3);
   const unsigned int loose = iterative_work.linear_iterations;
@@ -195,14 +197,14 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
   EXPECT_EQ(iterative_work.preconditioners, 1u);
 
   Work work;
-  IterativeSolver fresh(space);
-  fresh.set_problem(scene, load, work);
+  IterativeSolver fresh(boundary);
+  fresh.set_problem(scene, boundary, load, work);
   fresh.solve(pinned, state, 1e-11);
   EXPECT_LE(both, work.linear_iterations + 2);
 }
 
 TEST_F(Kinds, GiveTheFieldOfTheStateThatIsAskedFor) {
-  const unsigned int m = space.contact_nodes().size();
+  const unsigned int m = boundary.size();
   for (ContactLinearSolver* const solver : {static_cast<ContactLinearSolver*>(&direct),
                                             static_cast<ContactLinearSolver*>(&iterative)}) {
     std::vector<bool> pinned(m);
@@ -218,7 +220,7 @@ TEST_F(Kinds, GiveTheFieldOfTheStateThatIsAskedFor) {
 }
 
 TEST_F(Kinds, AgreeOnTheChangeOfForces) {
-  const unsigned int m = space.contact_nodes().size();
+  const unsigned int m = boundary.size();
   std::vector<bool> pinned(m);
   for (unsigned int i = 0; i < m; ++i)
     pinned[i] = i % 3 != 0;
@@ -248,9 +250,9 @@ TEST_F(Kinds, AgreeOnTheChangeOfForces) {
 TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
   Work work;
   const std::optional<FieldVector> no_load;
-  IterativeSolver solver(space);
-  solver.set_problem(scene, no_load, work);
-  const unsigned int m = space.contact_nodes().size();
+  IterativeSolver solver(boundary);
+  solver.set_problem(scene, boundary, no_load, work);
+  const unsigned int m = boundary.size();
   ContactState state = random_state(std::vector<bool>(m, true));
   solver.solve(std::vector<bool>(m, true), state, 1e-11);
   EXPECT_GT(state.force.l2_norm(), 0);
@@ -265,7 +267,7 @@ TEST(Iterative, FullContactHasItsExactForceAtEverySpeed) {
   for (const double omega : {0., 0.5, 1.}) {
     const Scene scene = full_circle(0.5, 1, omega, -0.1);
     const MeshAndSpace ring(scene, parameters);
-    const Answer answer(scene, parameters, ring.space, "iterative");
+    const Answer answer(scene, parameters, ring.boundary, "iterative");
     EXPECT_EQ(answer.result.patch.active_nodes, 24u);
     EXPECT_NEAR(answer.on_mesh.contact.state.force.l1_norm(),
                 2 * dealii::numbers::PI * 0.1 / std::log(2), 1e-6);
@@ -281,11 +283,12 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   const std::optional<FieldVector> no_load;
   Work work;
   const SolverChoice choice =
-      choose_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+      choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
   EXPECT_NE(dynamic_cast<const IterativeSolver*>(choice.solver.get()), nullptr);
   EXPECT_NE(choice.remark.find("200000 contact nodes"), std::string::npos) << choice.remark;
-  EXPECT_THROW(choose_solver(SolverKind::direct, ring.space, scene, no_load, work),
-               NotEnoughMemory);
+  EXPECT_THROW(
+      choose_solver(SolverKind::direct, ring.boundary, scene, ring.boundary, no_load, work),
+      NotEnoughMemory);
 }
 
 // The dense problem of m contact nodes takes m^3 operations, conjugate gradients some of each
@@ -300,7 +303,7 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheDenseProblemTakesLonger) {
     Work work;
     const std::optional<FieldVector> no_load;
     const SolverChoice choice =
-        choose_solver(SolverKind::automatic, ring.space, scene, no_load, work);
+        choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
     EXPECT_EQ(choice.kind, is_direct ? SolverKind::direct : SolverKind::iterative);
     EXPECT_EQ(choice.remark.empty(), is_direct);
     EXPECT_EQ(work.factorisations, is_direct ? 1u : 0u);
@@ -316,9 +319,10 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
   const RingSpace& space = solution.space();
   dealii::AffineConstraints<double> constraints;
   constraints.copy_from(space.constraints());
-  for (unsigned int i = 0; i < space.contact_nodes().size(); ++i)
+  const ContactBoundary boundary(space, scene.zone());
+  for (unsigned int i = 0; i < boundary.size(); ++i)
     if (solution.result.contact_rows[i].pressure > 0)
-      constraints.add_line(space.contact_nodes()[i].dof);
+      constraints.add_line(boundary.contact_nodes()[i].dof);
   constraints.close();
 
   Work work;

@@ -145,8 +145,8 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
       Work work;
-      Solution solution =
-          simulate(Discretisation(scene, parameters, MPI_COMM_SELF, true, work), scene, parameters);
+      Solution solution = simulate(
+          Discretisation(scene, parameters, MPI_COMM_SELF, work, scene.zone()), scene, parameters);
       const Result& result = solution.result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;

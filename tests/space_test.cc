@@ -1,4 +1,6 @@
 // The mesh is periodic, and the contact rule integrates as Gauss-Lobatto's.
+#include "rollwave/base/errors.h"
+#include "rollwave/mesh/surface_trace.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
@@ -51,11 +53,69 @@ TEST_P(Space, ListsTheContactNodesOfTheZoneInOrder) {
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
   double previous = scene.zone_begin - 1e-12;
-  for (const SurfaceNode& node : ring.space.contact_nodes()) {
+  for (const SurfaceNode& node : ring.boundary.contact_nodes()) {
     EXPECT_GT(node.angle, previous);
     EXPECT_LE(node.angle, scene.zone_end + 1e-12);
     previous = node.angle;
   }
+}
+
+TEST_P(Space, NumbersTheContactNodesAmongTheSurfaceNodes) {
+  const Scene scene = make_scene(parameters);
+  const MeshAndSpace ring(scene, parameters);
+  FieldVector field = ring.space.make_field();
+  for (const SurfaceNode& node : ring.space.surface_nodes())
+    field(node.dof) = node.angle;
+  const auto values = ring.boundary.contact_values(field);
+  unsigned int n_contact = 0;
+  for (unsigned int i = 0; i < ring.space.surface_nodes().size(); ++i) {
+    const double angle = ring.space.surface_nodes()[i].angle;
+    const auto number = ring.boundary.contact_number(i);
+    ASSERT_EQ(number.has_value(), scene.is_in_zone(angle));
+    if (!number)
+      continue;
+    EXPECT_EQ(ring.boundary.contact_nodes()[*number].angle, angle);
+    EXPECT_EQ(values(*number), angle);
+    ++n_contact;
+  }
+  EXPECT_EQ(n_contact, ring.boundary.size());
+}
+
+TEST_P(Space, RefusesAZoneBetweenNodes) {
+  const Scene scene = make_scene(parameters);
+  const MeshAndSpace ring(scene, parameters);
+  const auto& nodes = ring.space.surface_nodes();
+  for (unsigned int i = 0; i + 1 < nodes.size(); ++i) {
+    const double begin = nodes[i].angle, length = nodes[i + 1].angle - begin;
+    EXPECT_THROW(ContactBoundary(ring.space, {begin + 0.1 * length, begin + 0.9 * length}),
+                 BadInput);
+  }
+}
+
+TEST_P(Space, TracesReproducePolynomialsOfTheDegree) {
+  const Scene scene = make_scene(parameters);
+  const MeshAndSpace ring(scene, parameters);
+  const int p = GetParam();
+  const double middle = (scene.zone_begin + scene.zone_end) / 2;
+  FieldVector field = ring.space.make_field();
+  for (const SurfaceNode& node : ring.space.surface_nodes())
+    field(node.dof) = std::pow(node.angle - middle, p);
+  const SurfaceTrace trace(ring.space, field);
+  unsigned int n_checked = 0;
+  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
+    const SurfaceFace& face = trace.faces()[i];
+    if (face.end > middle + PI - 1e-9) // its last node has the angle middle - pi
+      continue;
+    ++n_checked;
+    for (const double t : {0., 0.3, 0.8, 1.}) {
+      const double x = face.begin + t * (face.end - face.begin) - middle;
+      const auto [value, slope] = trace.value_and_slope(i, t);
+      EXPECT_EQ(trace.value(i, t), value);
+      EXPECT_NEAR(value, std::pow(x, p), 1e-12);
+      EXPECT_NEAR(slope, p * std::pow(x, p - 1), 1e-11);
+    }
+  }
+  EXPECT_GE(n_checked, 9u);
 }
 
 // On a long ring: each half, then the line between them with the seam, on a refined mesh too.
@@ -95,12 +155,12 @@ TEST_P(Space, AdmitsAZoneAcrossTheSeam) {
   scene.zone_begin -= PI;
   scene.zone_end -= PI;
   const MeshAndSpace above(scene, parameters);
-  ASSERT_EQ(above.space.contact_nodes().size(), below.space.contact_nodes().size());
-  for (unsigned int i = 0; i < below.space.contact_nodes().size(); ++i) {
-    EXPECT_NEAR(above.space.contact_nodes()[i].angle, below.space.contact_nodes()[i].angle - PI,
-                1e-13);
-    EXPECT_NEAR(above.space.contact_nodes()[i].weight, below.space.contact_nodes()[i].weight,
-                1e-14);
+  ASSERT_EQ(above.boundary.size(), below.boundary.size());
+  for (unsigned int i = 0; i < below.boundary.size(); ++i) {
+    const SurfaceNode &one = above.boundary.contact_nodes()[i],
+                      &other = below.boundary.contact_nodes()[i];
+    EXPECT_NEAR(one.angle, other.angle - PI, 1e-13);
+    EXPECT_NEAR(one.weight, other.weight, 1e-14);
   }
 }
 

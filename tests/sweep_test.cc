@@ -51,7 +51,7 @@ protected:
     const Scene scene = make_scene(parameters);
     Work work;
     if (!mesh)
-      mesh.emplace(scene, parameters, MPI_COMM_SELF, true, work);
+      mesh.emplace(scene, parameters, MPI_COMM_SELF, work, scene.zone());
     Solution solution = simulate(std::move(*mesh), scene, parameters, work);
     mesh = std::move(solution.mesh);
     // A zone that is left to the program depends on the distance.

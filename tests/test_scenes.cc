@@ -52,7 +52,7 @@ const std::vector<PaperScene>& paper_scenes() {
 
 MeshAndSpace::MeshAndSpace(const Scene& scene, const Parameters& parameters)
     : triangulation(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)),
-      space(*triangulation, scene, parameters.mesh.degree) {}
+      space(*triangulation, scene, parameters.mesh.degree), boundary(space, scene.zone()) {}
 
 FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);

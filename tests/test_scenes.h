@@ -1,6 +1,7 @@
 #ifndef ROLLWAVE_TEST_SCENES_H
 #define ROLLWAVE_TEST_SCENES_H
 
+#include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/solver/direct_solver.h"
@@ -41,12 +42,13 @@ struct PaperScene {
 
 const std::vector<PaperScene>& paper_scenes();
 
-/// Mesh and space of @p parameters for @p scene, without solving anything.
+/// Mesh, space and contact nodes of @p parameters for @p scene, without solving anything.
 struct MeshAndSpace {
   MeshAndSpace(const Scene& scene, const Parameters& parameters);
 
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
   RingSpace space;
+  ContactBoundary boundary;
 };
 
 /// The load of a scene's force.

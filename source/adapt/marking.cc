@@ -109,7 +109,7 @@ void flag_columns(Triangulation<2>& triangulation, double depth) {
 
 /// Flags the cells next to those of a process that are flagged on their own process.
 void share_flags(Triangulation<2>& triangulation) {
-  if (is_alone(triangulation.get_communicator()))
+  if (is_serial(triangulation.get_communicator()))
     return;
   GridTools::exchange_cell_data_to_ghosts<int, Triangulation<2>>(
       triangulation,
@@ -122,7 +122,7 @@ void share_flags(Triangulation<2>& triangulation) {
 
 /// Flags the cells that must be cut with those that are flagged.
 /// @return the number of flagged cells of all processes
-double settle_flags(Triangulation<2>& triangulation, double depth) {
+double complete_flags(Triangulation<2>& triangulation, double depth) {
   for (double count = -1;;) { // until no process has more to pass on
     share_flags(triangulation);
     flag_columns(triangulation, depth);
@@ -159,7 +159,7 @@ bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
     for (const auto& cell : triangulation.active_cell_iterators())
       if (cell->level() >= finest_level)
         cell->clear_refine_flag();
-    return settle_flags(triangulation, depth);
+    return complete_flags(triangulation, depth);
   };
   const double most_flagged = (most_cells - triangulation.n_global_active_cells()) / 3;
   double n_flagged = flag(fraction);

@@ -31,7 +31,7 @@ double available_memory() {
 }
 
 double sum_on_machine(MPI_Comm communicator, double value) {
-  if (is_alone(communicator))
+  if (is_serial(communicator))
     return value;
   MPI_Comm machine;
   MPI_Comm_split_type(communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);

@@ -21,15 +21,15 @@ unsigned int count_processes(MPI_Comm communicator) {
   return Utilities::MPI::job_supports_mpi() ? Utilities::MPI::n_mpi_processes(communicator) : 1;
 }
 
-bool is_alone(MPI_Comm communicator) {
+bool is_serial(MPI_Comm communicator) {
   return count_processes(communicator) == 1;
 }
 
 unsigned int process_number(MPI_Comm communicator) {
-  return is_alone(communicator) ? 0 : Utilities::MPI::this_mpi_process(communicator);
+  return is_serial(communicator) ? 0 : Utilities::MPI::this_mpi_process(communicator);
 }
 
-std::string share_text(MPI_Comm communicator, const std::string& text) {
+std::string broadcast(MPI_Comm communicator, const std::string& text) {
   return Utilities::MPI::all_gather(communicator, text).front();
 }
 

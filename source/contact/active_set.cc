@@ -28,8 +28,8 @@ unsigned int count_changes(const std::vector<bool>& active, const std::vector<bo
   return count;
 }
 
-/// What is wrong at a state that the equations hold for up to @p residual, and the set to take @p
-/// next.
+/// Checks the contact conditions of a state whose equations hold up to @p residual, and proposes
+/// the @p next set.
 ContactStep check_conditions(const ContactProblem& problem, const ContactSolution& solution,
                              double residual, std::vector<bool>& next) {
   const auto& [displacement, force] = solution.state;

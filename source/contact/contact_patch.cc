@@ -41,8 +41,8 @@ double end_exponent(const Scene& scene, double spacing) {
   return spacing > std::pow(2 * margin, 1.5) ? 1. / 3 : 1. / 2;
 }
 
-/// The end of a stretch beside its outermost node @p i, with @p n_outside nodes in the direction @p
-/// out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
+/// The end of a stretch next to its outermost node @p i, with @p n_outside nodes in the direction
+/// @p out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
 double find_end(const Scene& scene, const Profile& nodes, int i, int out, int n_outside,
                 int n_inside) {
   const auto& z = nodes.angle;

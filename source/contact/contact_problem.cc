@@ -27,8 +27,8 @@ dealii::Vector<double> ContactProblem::forces(const dealii::Vector<double>& pres
   return force;
 }
 
-ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene) {
-  const auto& nodes = space.contact_nodes();
+ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene& scene) {
+  const auto& nodes = boundary.contact_nodes();
   ContactProblem problem;
   problem.road.reinit(nodes.size());
   problem.weight.reinit(nodes.size());

@@ -112,9 +112,9 @@ double approach_of_growth(const ContactProblem& problem, const ContactSolution& 
 
 } // namespace
 
-Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
-                        const ContactProblem& problem, const ContactSolution& solution,
-                        unsigned int most_steps) {
+Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boundary,
+                        const Scene& scene, const ContactProblem& problem,
+                        const ContactSolution& solution, unsigned int most_steps) {
   const ContactState rate = rate_of_approach(solver, problem, solution);
   const Loads of_set = stiffness_of_set(problem, solution, rate);
   if (!(of_set.total > 0))
@@ -123,15 +123,14 @@ Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, con
   constexpr double n_cells = 2;
   const Bracket limits(scene);
   const double c = scene.road.distance;
-  const double step = std::min(
-      {approach_of_growth(problem, solution, rate, space.dof_handler().get_fe().degree, n_cells) /
-           2,
-       loads_of(problem, solution.state.force).total / of_set.total / 2, c - limits.near,
-       limits.far - c});
+  const unsigned int degree = boundary.space().dof_handler().get_fe().degree;
+  const double step = std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
+                                loads_of(problem, solution.state.force).total / of_set.total / 2,
+                                c - limits.near, limits.far - c});
   if (!(step > 1e-10 * c))
     return of_set;
   const auto loads_at = [&](double distance) {
-    const ContactProblem moved = make_contact_problem(space, with_distance(scene, distance));
+    const ContactProblem moved = make_contact_problem(boundary, with_distance(scene, distance));
     const ContactSolution contact =
         active_set(solver, moved, most_steps, problem.pressures(solution.state.force));
     return loads_of(moved, contact.state.force);
@@ -141,8 +140,9 @@ Loads contact_stiffness(ContactLinearSolver& solver, const RingSpace& space, con
           (near.work_conjugate - far.work_conjugate) / (2 * step)};
 }
 
-RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, const Scene& scene,
-                           unsigned int most_steps, const Vector<double>& start) {
+RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& boundary,
+                           const Scene& scene, unsigned int most_steps,
+                           const Vector<double>& start) {
   constexpr double tolerance = 1e-10;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
@@ -150,7 +150,8 @@ RoadPosition find_distance(ContactLinearSolver& solver, const RingSpace& space, 
   Bracket bracket = limits;
   RoadPosition road = {scene.road.distance, 0, start};
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
-    const ContactProblem problem = make_contact_problem(space, with_distance(scene, road.distance));
+    const ContactProblem problem =
+        make_contact_problem(boundary, with_distance(scene, road.distance));
     const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);
     road.pressure = problem.pressures(contact.state.force);
     road.load = loads_of(problem, contact.state.force).of(kind);

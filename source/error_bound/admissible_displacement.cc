@@ -1,6 +1,5 @@
 #include "rollwave/error_bound/admissible_displacement.h"
 
-#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <boost/math/tools/roots.hpp>
@@ -13,14 +12,14 @@ namespace rollwave {
 
 using namespace dealii;
 
-FieldVector project_contact_nodes(const RingSpace& space, const ContactProblem& problem,
+FieldVector project_contact_nodes(const ContactBoundary& boundary, const ContactProblem& problem,
                                   const std::vector<bool>& active, FieldVector field) {
   for (unsigned int i = 0; i < problem.size(); ++i) {
-    const auto dof = space.contact_nodes()[i].dof;
+    const auto dof = boundary.contact_nodes()[i].dof;
     if (field.in_local_range(dof))
       field(dof) = active[i] ? problem.road(i) : std::min(field(dof), problem.road(i));
   }
-  space.constraints().distribute(field);
+  boundary.space().constraints().distribute(field);
   field.update_ghost_values();
   return field;
 }
@@ -39,43 +38,48 @@ double root(const Function& function, double left, double right, double at_left,
 
 } // namespace
 
-AdmissibleTrace::AdmissibleTrace(const RingSpace& space, const Scene& scene,
+AdmissibleTrace::AdmissibleTrace(const ContactBoundary& boundary, const Scene& scene,
                                  const FieldVector& field, const std::vector<bool>& active)
-    : phi(scene.phi), shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {
-  const std::vector<double> values = space.surface_values(field);
-  for (const SurfaceFace& face : space.surface_faces()) {
-    Edge edge{face.begin, face.end, {}, {}};
-    unsigned int n_active = 0;
-    for (const unsigned int node : face.nodes) {
-      edge.nodal_values.push_back(values[node]);
-      const auto contact = space.contact_number(node);
-      n_active += contact && active[*contact];
-    }
-    // The part of the edge in the zone, in terms of t.
-    const double length = edge.end - edge.begin;
-    const bool begins_before = scene.zone_begin - edge.begin <= Scene::angular_round_off;
-    const bool ends_behind = edge.end - scene.zone_end <= Scene::angular_round_off;
-    const double zone_begin = begins_before ? 0 : (scene.zone_begin - edge.begin) / length;
-    const double zone_end = ends_behind ? 1 : (scene.zone_end - edge.begin) / length;
-    if (n_active == face.nodes.size() && zone_begin == 0 && zone_end == 1)
-      edge.pieces = {{Piece::Kind::touching, 0, 1}};
-    else if (zone_begin < zone_end)
-      find_pieces(edge, zone_begin, zone_end);
-    else
-      edge.pieces = {{Piece::Kind::outside, 0, 1}};
-    edges.push_back(std::move(edge));
+    : phi(scene.phi), discrete(boundary.space(), field) {
+  const auto is_active = [&](unsigned int node) {
+    const auto contact = boundary.contact_number(node);
+    return contact && active[*contact];
+  };
+  for (unsigned int face = 0; face < discrete.faces().size(); ++face) {
+    const auto& nodes = discrete.faces()[face].nodes;
+    edges.push_back(
+        pieces_of(face, scene.zone(), std::all_of(nodes.begin(), nodes.end(), is_active)));
   }
 }
 
-void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end) const {
-  const auto excess_at = [&](double t) { return excess(edge, t).value; };
-  const auto slope_at = [&](double t) { return excess(edge, t).slope; };
+/// @param touches true if all nodes of the edge are in contact
+std::vector<AdmissibleTrace::Piece>
+AdmissibleTrace::pieces_of(unsigned int face, const std::pair<double, double>& zone,
+                           bool touches) const {
+  // The part of the edge in the zone, in terms of t.
+  const auto& [begin, end, nodes] = discrete.faces()[face];
+  const double length = end - begin;
+  const bool begins_before = zone.first - begin <= angular_round_off;
+  const bool ends_behind = end - zone.second <= angular_round_off;
+  const double zone_begin = begins_before ? 0 : (zone.first - begin) / length;
+  const double zone_end = ends_behind ? 1 : (zone.second - begin) / length;
+  if (touches && zone_begin == 0 && zone_end == 1)
+    return {{Piece::Kind::touching, 0, 1}};
+  if (zone_begin < zone_end)
+    return limited_pieces(face, zone_begin, zone_end);
+  return {{Piece::Kind::outside, 0, 1}};
+}
+
+std::vector<AdmissibleTrace::Piece>
+AdmissibleTrace::limited_pieces(unsigned int face, double zone_begin, double zone_end) const {
+  const auto excess_at = [&](double t) { return excess(face, t).value; };
+  const auto slope_at = [&](double t) { return excess(face, t).slope; };
   std::vector<double> ends = {zone_begin};
   const auto split = [&](double left, double right, double at_left, double at_right) {
     if (at_left * at_right < 0)
       ends.push_back(root(excess_at, left, right, at_left, at_right));
   };
-  const QGaussLobatto<1> nodes(shapes.size());
+  const QGaussLobatto<1> nodes(discrete.faces()[face].nodes.size());
   static const QGaussLobatto<1> samples(8);
   for (unsigned int k = 0; k + 1 < nodes.size(); ++k) {
     const double low = std::max(zone_begin, nodes.point(k)[0]);
@@ -100,46 +104,39 @@ void AdmissibleTrace::find_pieces(Edge& edge, double zone_begin, double zone_end
     ends.push_back(high);
   }
 
+  std::vector<Piece> pieces;
   if (zone_begin > 0)
-    edge.pieces.push_back(
+    pieces.push_back(
         {Piece::Kind::outside, 0, zone_begin, 0, -std::max(0., excess_at(zone_begin))});
   for (unsigned int i = 0; i + 1 < ends.size(); ++i)
-    edge.pieces.push_back({Piece::Kind::limited, ends[i], ends[i + 1]});
+    pieces.push_back({Piece::Kind::limited, ends[i], ends[i + 1]});
   if (zone_end < 1)
-    edge.pieces.push_back(
-        {Piece::Kind::outside, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
+    pieces.push_back({Piece::Kind::outside, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
+  return pieces;
 }
 
-AdmissibleTrace::ValueAndSlope AdmissibleTrace::excess(const Edge& edge, double t) const {
-  const double length = edge.end - edge.begin, z = edge.begin + t * length;
-  ValueAndSlope excess = {-phi(z), -phi.slope(z)};
-  double both[2];
-  for (unsigned int i = 0; i < shapes.size(); ++i) {
-    shapes[i].value(t, 1, both);
-    excess.value += edge.nodal_values[i] * both[0];
-    excess.slope += edge.nodal_values[i] * both[1] / length;
-  }
-  return excess;
+SurfaceTrace::ValueAndSlope AdmissibleTrace::excess(unsigned int face, double t) const {
+  const auto& [begin, end, nodes] = discrete.faces()[face];
+  const double z = begin + t * (end - begin);
+  const auto [value, slope] = discrete.value_and_slope(face, t);
+  return {value - phi(z), slope - phi.slope(z)};
 }
 
 AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int face, const Piece& piece,
                                                         double t) const {
-  const Edge& edge = edges[face];
   if (piece.kind == Piece::Kind::outside) {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
+    const SurfaceFace& edge = discrete.faces()[face];
     return {piece.value_begin + slope * (t - piece.t_begin), slope / (edge.end - edge.begin), 0};
   }
-  const auto [above, slope] = excess(edge, t);
+  const auto [above, slope] = excess(face, t);
   if (piece.kind == Piece::Kind::limited && above <= 0)
     return {0, 0, -above};
   return {-above, -slope, 0};
 }
 
 double AdmissibleTrace::displacement(unsigned int face, const Piece& piece, double t) const {
-  double discrete = 0;
-  for (unsigned int i = 0; i < shapes.size(); ++i)
-    discrete += edges[face].nodal_values[i] * shapes[i].value(t);
-  return discrete + correction(face, piece, t).value;
+  return discrete.value(face, t) + correction(face, piece, t).value;
 }
 
 } // namespace rollwave

@@ -1,7 +1,7 @@
 #include "rollwave/error_bound/admissible_pressure.h"
 
 #include "rollwave/contact/contact_problem.h"
-#include "rollwave/mesh/ring_space.h"
+#include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/exceptions.h>
@@ -21,8 +21,9 @@ bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
 }
 
 /// Nodal force over the node's share of the edges that lie in the zone, for all surface nodes.
-std::vector<double> nodal_pressures(const RingSpace& space, const Scene& scene,
+std::vector<double> nodal_pressures(const ContactBoundary& boundary, const Scene& scene,
                                     const ContactSolution& contact) {
+  const RingSpace& space = boundary.space();
   const QGaussLobatto<1> lobatto(space.dof_handler().get_fe().degree + 1);
   std::vector<double> shares(space.surface_nodes().size()), pressures(shares.size());
   for (const SurfaceFace& face : space.surface_faces())
@@ -30,7 +31,7 @@ std::vector<double> nodal_pressures(const RingSpace& space, const Scene& scene,
       for (unsigned int k = 0; k < face.nodes.size(); ++k)
         shares[face.nodes[k]] += lobatto.weight(k) * space.outer_radius() * (face.end - face.begin);
   for (unsigned int i = 0; i < shares.size(); ++i)
-    if (const auto node = space.contact_number(i); node && shares[i] > 0)
+    if (const auto node = boundary.contact_number(i); node && shares[i] > 0)
       pressures[i] = std::max(0., contact.state.force(*node) / shares[i]);
   return pressures;
 }
@@ -77,11 +78,12 @@ EdgePressure nonnegative_pressure(double mean, double slope) {
 
 } // namespace
 
-std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Scene& scene,
+std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, const Scene& scene,
                                                const ContactSolution& contact) {
+  const RingSpace& space = boundary.space();
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGaussLobatto<1> lobatto(degree + 1);
-  const std::vector<double> pressures = nodal_pressures(space, scene, contact);
+  const std::vector<double> pressures = nodal_pressures(boundary, scene, contact);
   std::vector<EdgePressure> edges;
   for (const SurfaceFace& face : space.surface_faces()) {
     edges.push_back({0, 0});

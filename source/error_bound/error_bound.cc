@@ -21,8 +21,8 @@ using namespace dealii;
 
 namespace {
 
-/// What a Certificate is made of: v = displacement + c xi, c that of the trace and xi linear from 0
-/// to 1 across the row of cells at the surface.
+/// The fields of a Certificate. v = displacement + c xi, where c is the correction of the trace,
+/// and xi is linear from 0 to 1 across the row of cells at the surface.
 struct AdmissibleFields {
   const FieldVector& displacement; ///< u_h, with the contact nodes on the road or before it
   const AdmissibleTrace& trace;
@@ -45,8 +45,8 @@ struct AngularShapes {
   }
 };
 
-/// Integrals over dr, or sums of them: in a higher precision, lest those over very many cells be
-/// off by more than the bounds of J are apart.
+/// Integrals over dr, or sums of them. They have a higher precision, so that sums over very many
+/// cells are more accurate than the bounds of J are apart.
 struct Integrals {
   long double bound_squared = 0; ///< of eta^2 without the road's term
   long double norm_squared = 0;
@@ -224,17 +224,19 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 
 } // namespace
 
-Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, StressFunction& stress_function, Work& work) {
+Certificate certify(const ContactBoundary& boundary, const Scene& scene,
+                    const ContactProblem& problem, const ContactSolution& contact,
+                    const FieldVector& field, const ForceIntegral* force,
+                    StressFunction& stress_function, Work& work) {
   const Work::Phase phase(work, "certificate");
-  const FieldVector displacement = project_contact_nodes(space, problem, contact.active, field);
-  const AdmissibleTrace trace(space, scene, displacement, contact.active);
-  const auto pressures = admissible_pressures(space, scene, contact);
+  const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
+  const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
+  const auto pressures = admissible_pressures(boundary, scene, contact);
   const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
   const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, work);
-  auto [integrals, cell_bounds] = integrate(
-      space, scene, {displacement, trace, pressures, potential, force}, stress_function.shapes());
+  auto [integrals, cell_bounds] =
+      integrate(boundary.space(), scene, {displacement, trace, pressures, potential, force},
+                stress_function.shapes());
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};
 }

@@ -44,9 +44,9 @@ std::vector<double> all_radii(const RingSpace& space) {
   return {all.begin(), all.end()};
 }
 
-/// What G_h misses between the points along r, squared and integrated over dr / r: the square of
+/// The error of G_h between the points along r, squared and integrated over dr / r: the square of
 /// the coefficient of the highest Legendre polynomial times the number of points. That is about the
-/// mean square of what is missing where coefficients fall slowly, and more than that where they
+/// mean square of the error where coefficients fall slowly, and more than that where they
 /// fall fast.
 double missed_between_points(const RadialShapes& radial, const double* line) {
   const auto& highest = radial.highest_mode;

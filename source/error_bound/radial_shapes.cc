@@ -29,7 +29,7 @@ StressFunctionBasis::StressFunctionBasis(const Scene& scene, unsigned int degree
 
 Vector<double> StressFunctionBasis::primitives(double r) const {
   // 1, then int_begin^r rho alpha P_j drho over the depth of the interval. The only singularity is
-  // at rho = 0, and the rule is exact to round-off. The integrand is of one sign but for P_j: a
+  // at rho = 0, and the rule is exact to round-off. The integrand is of one sign except for P_j: a
   // difference of depths would cancel in thin layers at the surface and the critical speed.
   Vector<double> result(modes.size() + 1);
   result[0] = 1;

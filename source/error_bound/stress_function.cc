@@ -70,13 +70,13 @@ double fix_surface(const RingSpace& space, const std::vector<EdgePressure>& pres
   return at_begin.back();
 }
 
-/// Makes psi continuous over hanging nodes and, but for its growth in a period, over the seam.
+/// Makes psi continuous over hanging nodes and, except for its growth in a period, over the seam.
 /// Nodes on the finer side of an edge follow those of the coarser side by the shapes of
 /// StressFunctionBasis, deal.II's own constraints being for polynomials only.
-class EdgeTies {
+class ContinuityConstraints {
 public:
-  EdgeTies(const Scene& scene, unsigned int degree, double growth,
-           AffineConstraints<double>& constraints)
+  ContinuityConstraints(const Scene& scene, unsigned int degree, double growth,
+                        AffineConstraints<double>& constraints)
       : scene(scene), degree(degree), growth(growth), polynomials(lobatto_lagrange(degree)),
         nodes(QGaussLobatto<1>(degree + 1).get_points()), constraints(constraints) {}
 
@@ -134,7 +134,7 @@ private:
     constraints.add_line(dof);
     constraints.set_inhomogeneity(dof, offset);
     for (unsigned int j = 0; j < masters.size(); ++j)
-      // A node that is one of the masters depends on no other but for round-off.
+      // A node that is one of the masters depends on the others only by round-off.
       if (std::abs(weights[j]) > 1e-13)
         constraints.add_entry(dof, masters[j], weights[j]);
   }
@@ -148,7 +148,7 @@ private:
   std::map<std::pair<double, double>, StressFunctionBasis> bases; ///< of radial edges
 };
 
-/// What ties the nodal values of psi: its trace on r = b, continuity and the period.
+/// The constraints of the nodal values of psi: its trace on r = b, continuity and the period.
 /// @param pressures for degree 1 with zero slopes
 AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& scene,
                                            const std::vector<EdgePressure>& pressures) {
@@ -156,11 +156,11 @@ AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& 
   const unsigned int degree = handler.get_fe().degree;
   AffineConstraints<double> constraints(space.relevant_dofs());
   const double growth = fix_surface(space, pressures, constraints);
-  EdgeTies ties(scene, degree, growth, constraints);
+  ContinuityConstraints continuity(scene, degree, growth, constraints);
   for (const auto& cell : handler.active_cell_iterators())
     for (const unsigned int f : cell->face_indices())
       if (!cell->is_artificial() && (cell->face(f)->has_children() || cell->at_boundary(f)))
-        ties.tie_face(cell, f);
+        continuity.tie_face(cell, f);
   constraints.close();
   return constraints;
 }

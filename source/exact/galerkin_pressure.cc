@@ -67,8 +67,9 @@ struct GalerkinPressure::ModeSum {
     if (single < largest_k) {
       const double longest_panel = 8 / half_width;
       if (largest_k / longest_panel > most_panels)
-        throw NotSolved("the exact solution would need too many modes: the contact is long beside "
-                        "the thickness of the ring");
+        throw NotSolved(
+            "the exact solution would need too many modes: the contact is long compared with "
+            "the thickness of the ring");
       // Euler and Maclaurin: the midpoint rule exceeds the integral by -F'/24 at its begin.
       weight.back() -= 2. / 24;
       add(single + 1, 2. / 24);

@@ -20,7 +20,7 @@ double bessel_j(double order, double x) {
 std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double x) {
   std::vector<double> transforms(count);
   if (x == 0) {
-    // x^-nu J_(n+nu)(x) vanishes at x = 0 but for n = 0.
+    // x^-nu J_(n+nu)(x) vanishes at x = 0 except for n = 0.
     transforms[0] = std::pow(2., -nu) / boost::math::tgamma(nu + 1);
     return transforms;
   }

@@ -37,8 +37,8 @@ struct Box {
     return high[direction] - low[direction] > 1 ? std::floor(sum / 2) : sum / 2;
   }
 
-  /// Whether a node is on the line that halves the box. The first one across the ring takes the
-  /// seam with it, since it would part nothing alone.
+  /// True if a node is on the line that halves the box. The first line across the ring takes the
+  /// seam with it: alone it would not split the ring.
   bool holds_on_line(unsigned int direction, const Node& node) const {
     const double place = node.place[direction];
     return place == middle(direction) ||

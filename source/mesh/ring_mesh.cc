@@ -39,7 +39,7 @@ void append_equal(std::vector<double>& places, double begin, double end, int n) 
 }
 
 /// The angles of the vertices: at equal distances, or nearly so where the user gives a zone of
-/// contact, whose ends shall be vertices.
+/// contact, whose ends must be vertices.
 std::vector<double> angles_of(const Scene& scene, int n) {
   const double end = seam_angle + 2 * numbers::PI;
   std::vector<double> angles = {seam_angle};
@@ -117,8 +117,8 @@ std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
   auto grid = std::make_unique<Triangulation<2>>(smoothing);
   const std::vector<unsigned int> n_cells = {static_cast<unsigned int>(radii.size() - 1),
                                              static_cast<unsigned int>(angles.size() - 1)};
-  // In units of cells first: heights may be far smaller than lengths in z, and places shall be
-  // exact, those of the surface above all.
+  // In units of cells first: heights may be far smaller than lengths in z, and the vertices must be
+  // exact, in particular those of the surface.
   GridGenerator::subdivided_hyper_rectangle(*grid, n_cells, Point<2>(),
                                             Point<2>(n_cells[0], n_cells[1]), /*colorize=*/true);
   GridTools::transform(
@@ -129,7 +129,7 @@ std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
   return grid;
 }
 
-/// The same on several processes, which have as many columns along z each, and see those beside it.
+/// The same on several processes. Each has as many columns along z, and sees the neighbouring ones.
 std::unique_ptr<Triangulation<2>> make_strips(const std::vector<double>& radii,
                                               const std::vector<double>& angles,
                                               MPI_Comm communicator) {
@@ -180,7 +180,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
                                                  bool may_be_refined, MPI_Comm communicator) {
   check_mesh_size(mesh);
 
-  // What the cells alone occupy at least, whatever is solved on them.
+  // The least memory of the cells alone.
   const double bytes = 200. * count_unknowns(mesh) / (mesh.degree * mesh.degree);
   require_memory(bytes / count_processes(communicator), "the mesh", communicator);
 
@@ -191,7 +191,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
     halve(angles);
   }
   std::unique_ptr<Triangulation<2>> triangulation;
-  if (is_alone(communicator))
+  if (is_serial(communicator))
     triangulation = make_grid(radii, angles);
   else if (!may_be_refined)
     triangulation = make_strips(radii, angles, communicator);

@@ -1,6 +1,5 @@
 #include "rollwave/mesh/ring_space.h"
 
-#include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/nested_dissection.h"
 #include "rollwave/mesh/ring_mesh.h"
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <tuple>
 
 namespace rollwave {
 
@@ -85,18 +83,12 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     n_own_unknowns += !affine_constraints.is_constrained(dof);
   unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
 
-  if (!is_alone(communicator()))
+  if (!is_serial(communicator()))
     for (const auto& line : affine_constraints.get_lines())
       for (const auto& entry : line.entries)
         relevant.add_index(entry.first);
   partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
   find_surface(scene);
-  Scene widest = scene;
-  std::tie(widest.zone_begin, widest.zone_end) =
-      scene.shared_zone.value_or(std::pair(scene.zone_begin, scene.zone_end));
-  set_contact_zone(widest);
-  candidates = contact;
-  set_contact_zone(scene);
 }
 
 std::pair<double, double> RingSpace::diameters() const {
@@ -138,20 +130,6 @@ void RingSpace::find_surface(const Scene& scene) {
   }
 }
 
-void RingSpace::set_contact_zone(const Scene& scene) {
-  contact.clear();
-  for (unsigned int i = 0; i < surface.size(); ++i)
-    if (scene.is_in_zone(surface[i].angle)) {
-      if (contact.empty())
-        first_contact = i;
-      contact.push_back(surface[i]);
-    }
-  if (contact.empty())
-    throw BadInput("no node of the mesh lies in the contact zone from " +
-                   std::to_string(scene.zone_begin) + " to " + std::to_string(scene.zone_end) +
-                   "; raise Mesh/Angular cells or widen Road/Contact zone");
-}
-
 std::optional<unsigned int>
 RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
   if (cell->vertex(1)[0] != radius) // quicker than at_boundary(), and asked for every cell
@@ -173,12 +151,6 @@ std::vector<double> RingSpace::surface_values(const FieldVector& field) const {
       values[i] = field(surface[i].dof);
   Utilities::MPI::sum(values, communicator(), values);
   return values;
-}
-
-Vector<double> RingSpace::contact_values(const FieldVector& field) const {
-  const std::vector<double> values = surface_values(field);
-  const auto first = values.begin() + first_contact;
-  return Vector<double>(first, first + contact.size());
 }
 
 std::vector<DoFHandler<2>::active_cell_iterator>

@@ -146,7 +146,7 @@ std::vector<std::string> prepare_directory(const Parameters& parameters, bool is
   if (error)
     throw BadValue("Output", "Directory",
                    "this directory cannot be made or written into: " + error.message());
-  return remove_files_of_earlier_run(parameters, is_study, is_alone(communicator));
+  return remove_files_of_earlier_run(parameters, is_study, is_serial(communicator));
 }
 
 } // namespace rollwave

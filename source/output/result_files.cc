@@ -44,7 +44,7 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
   std::string own; // stays empty where there are more processes than cells
   for (const auto& cell : solution.space().dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
-      own = is_alone(communicator)
+      own = is_serial(communicator)
                 ? "solution.vtu"
                 : "solution." + std::to_string(process_number(communicator)) + ".vtu";
   std::string failure;
@@ -67,7 +67,7 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
       written.files.push_back(directory / piece);
     }
   written.n_bytes += Utilities::MPI::sum(n_bytes, communicator);
-  if (process_number(communicator) == 0 && !is_alone(communicator)) {
+  if (process_number(communicator) == 0 && !is_serial(communicator)) {
     std::ostringstream whole;
     write_solution_pvtu(whole, solution, parameters.output.cells, pieces);
     written.write(directory / "solution.pvtu", whole.str());

@@ -20,15 +20,15 @@ using namespace dealii;
 
 namespace {
 
-/// Prints a table, which deal.II does not do on a stream that has failed, but throws: who waits for
-/// files shall not lose them with the screen.
+/// Prints a table. On a stream that has failed deal.II throws, and the files would be lost with the
+/// screen.
 void print_table(std::ostream& out, const TableHandler& table) {
   std::ostringstream text;
   table.write_text(text, TableHandler::table_with_headers);
   out << text.str();
 }
 
-/// A long history is told by its ends.
+/// Of a longer history only the begin and the end are shown.
 constexpr unsigned int most_lines = 40;
 
 void report_history(std::ostream& out, const std::vector<ContactStep>& history,

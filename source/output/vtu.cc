@@ -121,7 +121,7 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
   return flags;
 }
 
-/// What the scene is, for captions.
+/// The numbers of the scene, for captions.
 void write_field_data(std::ostream& out, const Solution& solution) {
   const Units& units = solution.scene.units;
   out.precision(std::numeric_limits<double>::max_digits10);

@@ -265,10 +265,10 @@ std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm c
     else if (text.size() > longest)
       failure = ": this is no parameter file, it is longer than 1 MiB";
   }
-  failure = share_text(communicator, failure);
+  failure = broadcast(communicator, failure);
   if (!failure.empty())
     throw BadInput(printable(name) + failure);
-  return parse_settings(share_text(communicator, text), name);
+  return parse_settings(broadcast(communicator, text), name);
 }
 
 Parameters read_parameters(const std::vector<Setting>& settings) {

@@ -41,7 +41,7 @@ bool attempt(const std::function<void()>& compute, const std::string& missing,
     compute();
     return true;
   } catch (const std::exception& failure) {
-    if (!is_alone(communicator) && !dynamic_cast<const NotSolved*>(&failure))
+    if (!is_serial(communicator) && !dynamic_cast<const NotSolved*>(&failure))
       throw;
     shortfalls.push_back(missing + ": " + reason_of(failure) + "; " + advice);
     return false;

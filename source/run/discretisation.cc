@@ -17,17 +17,28 @@ StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space, W
   return *dual;
 }
 
-Discretisation::Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                               bool is_shared, Work& work)
-    : is_shared(is_shared) {
-  {
-    const Work::Phase phase(work, "mesh");
-    triangulation =
-        make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
-  }
-  const Work::Phase phase(work, "space");
-  space = std::make_unique<RingSpace>(*triangulation, scene, options.mesh.degree);
+namespace {
+
+std::unique_ptr<Triangulation<2>> make_first_mesh(const Scene& scene, const RunOptions& options,
+                                                  MPI_Comm communicator, Work& work) {
+  const Work::Phase phase(work, "mesh");
+  return make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
 }
+
+std::unique_ptr<RingSpace> make_space(const Triangulation<2>& triangulation, const Scene& scene,
+                                      const RunOptions& options, Work& work) {
+  const Work::Phase phase(work, "space");
+  return std::make_unique<RingSpace>(triangulation, scene, options.mesh.degree);
+}
+
+} // namespace
+
+Discretisation::Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                               Work& work,
+                               const std::optional<std::pair<double, double>>& shared_zone)
+    : triangulation(make_first_mesh(scene, options, communicator, work)),
+      space(make_space(*triangulation, scene, options, work)), is_shared(shared_zone.has_value()),
+      widest_zone(shared_zone.value_or(scene.zone())), candidates(*space, widest_zone) {}
 
 bool Discretisation::refine(const std::vector<double>& indicators, const Scene& scene,
                             const RunOptions& options, Work& work) {
@@ -39,9 +50,9 @@ bool Discretisation::refine(const std::vector<double>& indicators, const Scene& 
       return false;
   }
   cache = {};
-  const Work::Phase phase(work, "space");
   space.reset(); // its memory is free before the next one needs it
-  space = std::make_unique<RingSpace>(*triangulation, scene, mesh.degree);
+  space = make_space(*triangulation, scene, options, work);
+  candidates = ContactBoundary(*space, widest_zone);
   return true;
 }
 

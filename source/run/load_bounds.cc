@@ -13,18 +13,18 @@ using namespace dealii;
 namespace {
 
 /// The certified bounds of E at another distance, on the same mesh.
-Bounds certified_energy(const RunOptions& options, const RingSpace& space,
+Bounds certified_energy(const RunOptions& options, const ContactBoundary& candidates,
                         const MeshSolution& solution, double distance, MeshCache& cache,
                         Work& work) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
-  const PressureProfile start(space.contact_nodes(),
+  const PressureProfile start(solution.boundary.contact_nodes(),
                               solution.problem.pressures(solution.contact.state.force),
                               solution.resultants.ends);
-  const MeshSolution there = solve_on_mesh(moved, options, space, start, cache, work);
+  const MeshSolution there = solve_on_mesh(moved, options, candidates, start, cache, work);
   const CertifiedError error =
-      certify(space, moved, there.problem, there.contact, there.displacement, cache.force.get(),
-              cache.dual_of(moved, space, work), work)
+      certify(there.boundary, moved, there.problem, there.contact, there.displacement,
+              cache.force.get(), cache.dual_of(moved, candidates.space(), work), work)
           .error;
   return {error.lower_bound, error.upper_bound};
 }
@@ -39,10 +39,11 @@ double best_step(const Scene& scene, const CertifiedError& error, double stiffne
 
 } // namespace
 
-Bounds bound_load(const RunOptions& options, const RingSpace& space, const MeshSolution& solution,
-                  const CertifiedError& error, MeshCache& cache, Work& work) {
+Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
+                  const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
+                  Work& work) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, space, solution, distance, cache, work);
+    return certified_energy(options, candidates, solution, distance, cache, work);
   };
   const double c = solution.scene.road.distance;
   const double step =
@@ -52,11 +53,11 @@ Bounds bound_load(const RunOptions& options, const RingSpace& space, const MeshS
           (near.upper - error.lower_bound) / step};
 }
 
-std::optional<Bounds> bound_distance(const RunOptions& options, const RingSpace& space,
+std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
                                      const MeshSolution& solution, const CertifiedError& error,
                                      MeshCache& cache, Work& work) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, space, solution, distance, cache, work);
+    return certified_energy(options, candidates, solution, distance, cache, work);
   };
   const double c = solution.scene.road.distance, load = solution.scene.load->value;
   for (double step =

@@ -1,8 +1,8 @@
 #include "rollwave/run/remarks.h"
 
 #include "rollwave/base/text.h"
-#include "rollwave/mesh/line_elements.h"
 #include "rollwave/mesh/ring_mesh.h"
+#include "rollwave/mesh/surface_trace.h"
 
 #include <boost/math/tools/minima.hpp>
 
@@ -22,16 +22,13 @@ double depth_outside(const Scene& scene, const Result& result) {
   return depth;
 }
 
-/// Whether u_h is beyond the road anywhere in the zone, between nodes as well.
-bool passes_road(const Scene& scene, const RingSpace& space, const Result& result) {
-  const auto shapes = lobatto_lagrange(result.mesh.degree);
-  for (const SurfaceFace& face : space.surface_faces()) {
+/// True if u_h is beyond the road anywhere in the zone, between nodes as well.
+bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
+  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
+    const SurfaceFace& face = trace.faces()[i];
     const double length = face.end - face.begin;
     const auto gap = [&](double t) {
-      double gap = scene.phi(face.begin + t * length);
-      for (unsigned int k = 0; k < shapes.size(); ++k)
-        gap -= shapes[k].value(t) * result.surface[face.nodes[k]].displacement;
-      return gap;
+      return scene.phi(face.begin + t * length) - trace.value(i, t);
     };
     const double begin = std::max(0., (scene.zone_begin - face.begin) / length),
                  end = std::min(1., (scene.zone_end - face.begin) / length);
@@ -42,11 +39,11 @@ bool passes_road(const Scene& scene, const RingSpace& space, const Result& resul
   return false;
 }
 
-/// How many unknowns the wanted error needs by the rate of the meshes so far, such as "1e-07 needs
-/// about 4e+06 unknowns at degree 2; "; empty where these are too few to tell.
+/// The number of unknowns that the wanted error needs by the rate of the meshes so far, such as
+/// "1e-07 needs about 4e+06 unknowns at degree 2; "; empty where there are too few meshes.
 std::string cost_text(const RunOptions& options, const Result& result) {
   const double wanted = options.mesh.wanted_relative_error;
-  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that tell the rate
+  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that give the rate
   for (const CycleFigures& mesh : result.cycles)
     if (mesh.indicated > 0)
       end = &mesh;
@@ -66,8 +63,9 @@ std::string cost_text(const RunOptions& options, const Result& result) {
 
 } // namespace
 
-std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& options,
-                                    const RingSpace& space, const Result& result) {
+std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
+                                    const Result& result) {
+  const Scene& scene = solution.scene;
   std::vector<std::string> remarks;
   const auto& ends = result.patch.ends;
   const unsigned int active_nodes = result.patch.active_nodes;
@@ -85,7 +83,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   if (options.road.contact_zone && depth > 1e-9)
     remarks.push_back("outside of the zone, where there is no contact, the surface lies up to " +
                       rounded(depth, 2) +
-                      " b within the road; give a wider Road/Contact zone if it shall not");
+                      " b within the road; give a wider Road/Contact zone to prevent that");
   if (result.certified && !(result.certified->relative < 1)) {
     std::string remark = "the certified relative error is 1 or more, so that no digit is certified";
     if (options.mesh.wanted_relative_error == 0)
@@ -96,7 +94,9 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
   }
   // Two cells with all of their nodes have one more.
   const bool is_held_by_few = 0 < active_nodes && active_nodes <= 2 * result.mesh.degree;
-  if (is_held_by_few || (active_nodes == 0 && passes_road(scene, space, result)))
+  if (is_held_by_few ||
+      (active_nodes == 0 &&
+       passes_road(scene, SurfaceTrace(solution.boundary.space(), solution.displacement))))
     remarks.push_back((is_held_by_few ? "contact is held by " + std::to_string(active_nodes) +
                                             (active_nodes == 1 ? " node" : " nodes")
                                       : "the surface passes the road between nodes") +
@@ -108,8 +108,7 @@ std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& option
       });
   if (largest != result.surface.end() &&
       std::abs(largest->displacement) > scene.outer_radius - scene.inner_radius)
-    remarks.push_back("the surface is displaced by more than the ring is thick, for which the "
-                      "linear model is not meant");
+    remarks.push_back("the displacement exceeds the ring thickness; the linear model is not valid");
   return remarks;
 }
 

@@ -8,7 +8,7 @@ namespace rollwave {
 
 namespace {
 
-/// What needs the certificate is refused without it.
+/// Refuses options that need the certificate where there is none.
 void check_certificate(const RunOptions& options) {
   if (options.certificate.load_bounds && options.road.curvature > 0)
     throw BadValue("Certificate", "Load bounds",

@@ -35,7 +35,7 @@ std::optional<Certificate> certify_solution(const RunOptions& options, Discretis
                                             MeshSolution& solution, Work& work) {
   std::optional<Certificate> certificate;
   const auto compute = [&] {
-    certificate = certify(*mesh.space, solution.scene, solution.problem, solution.contact,
+    certificate = certify(solution.boundary, solution.scene, solution.problem, solution.contact,
                           solution.displacement, mesh.cache.force.get(),
                           mesh.cache.dual_of(solution.scene, *mesh.space, work), work);
   };
@@ -92,9 +92,9 @@ std::string interrupted_text(unsigned int n_meshes) {
   return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
 }
 
-PressureProfile pressure_of(const RingSpace& space, const MeshSolution& solution) {
-  return {space.contact_nodes(), solution.problem.pressures(solution.contact.state.force),
-          solution.resultants.ends};
+PressureProfile pressure_of(const MeshSolution& solution) {
+  return {solution.boundary.contact_nodes(),
+          solution.problem.pressures(solution.contact.state.force), solution.resultants.ends};
 }
 
 /// Bounds the work-conjugate load or, where that is given, the distance.
@@ -102,17 +102,17 @@ void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSol
                   const CertifiedError& error, Work& work, Result& result) {
   const auto& load = solution.scene.load;
   if (!load)
-    result.load_bounds = bound_load(options, *mesh.space, solution, error, mesh.cache, work);
+    result.load_bounds = bound_load(options, mesh.candidates, solution, error, mesh.cache, work);
   else if (load->kind == LoadKind::work_conjugate)
     result.distance_bounds =
-        bound_distance(options, *mesh.space, solution, error, mesh.cache, work);
+        bound_distance(options, mesh.candidates, solution, error, mesh.cache, work);
   else
     result.remarks.push_back("the distance can be enclosed only where Road/Load kind is "
                              "work-conjugate");
 }
 
 /// Adds the targets that were not reached, and the remarks.
-void judge(const RunOptions& options, const Discretisation& mesh, const Scene& scene,
+void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
            const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
   if (wants_error && certificate && !is_reached(options, certificate))
@@ -121,7 +121,7 @@ void judge(const RunOptions& options, const Discretisation& mesh, const Scene& s
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
-  for (const std::string& remark : remarks_on(scene, options, *mesh.space, result))
+  for (const std::string& remark : remarks_on(options, solution, result))
     result.remarks.push_back(remark);
 }
 
@@ -129,12 +129,12 @@ void judge(const RunOptions& options, const Discretisation& mesh, const Scene& s
 Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
                 bool is_interrupted, Work work) {
-  Result result = measure(*mesh.space, last);
+  Result result = measure(last);
   result.cycles = std::move(cycles);
   result.is_interrupted = is_interrupted;
   if (certificate)
     result.certified = certificate->error;
-  judge(options, mesh, last.scene, certificate, result);
+  judge(options, mesh, last, certificate, result);
   if (options.certificate.load_bounds && certificate && !is_interrupted)
     attempt([&] { enclose_load(options, mesh, last, certificate->error, work, result); },
             "the load could not be enclosed",
@@ -153,7 +153,8 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
                           PressureProfile pressure, Work work, const Progress& progress,
                           std::vector<CycleFigures>& cycles) {
   for (;;) {
-    MeshSolution solution = solve_on_mesh(scene, options, *mesh.space, pressure, mesh.cache, work);
+    MeshSolution solution =
+        solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache, work);
     if (!mesh.is_shared && !options.certificate.load_bounds)
       mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
     std::optional<Certificate> certificate = certify_solution(options, mesh, solution, work);
@@ -165,7 +166,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
       solution.shortfalls.push_back(interrupted_text(cycles.size()));
     if (!ends && !is_stopped) {
       scene = solution.scene;
-      pressure = pressure_of(*mesh.space, solution);
+      pressure = pressure_of(solution);
       const auto indicators = indicate(options, mesh, solution, certificate, work);
       cycles.back().indicated = total(indicators, mesh.communicator());
       if (mesh.refine(indicators, scene, options, work)) {
@@ -185,7 +186,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
 /// iterative kind a new preconditioner.
 bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
   constexpr double least_unknowns = 1e5;
-  return (options.solver.kind == SolverKind::iterative || !is_alone(communicator)) &&
+  return (options.solver.kind == SolverKind::iterative || !is_serial(communicator)) &&
          options.contact.method == ContactMethod::active_set &&
          count_unknowns(options.mesh) > least_unknowns;
 }
@@ -202,9 +203,10 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
                     Work& work) {
   try {
     const RunOptions coarse = coarser(options);
-    Discretisation mesh(scene, coarse, communicator, false, work);
-    const MeshSolution solution = solve_on_mesh(scene, coarse, *mesh.space, {}, mesh.cache, work);
-    return {solution.scene, pressure_of(*mesh.space, solution)};
+    Discretisation mesh(scene, coarse, communicator, work);
+    const MeshSolution solution =
+        solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, work);
+    return {solution.scene, pressure_of(solution)};
   } catch (const Interrupted&) {
     throw;
   } catch (const BadInput&) {
@@ -225,10 +227,6 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
     start = solve_coarser(scene, options, communicator, work);
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
-  {
-    const Work::Phase phase(work, "space");
-    mesh.space->set_contact_zone(scene);
-  }
   std::vector<CycleFigures> cycles;
   try {
     return solve_and_refine(std::move(mesh), start.scene, options, std::move(start.pressure),
@@ -246,7 +244,7 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
                   const Progress& progress) {
   check_simulation(options, count_processes(communicator));
   Work work(progress.phase_ended);
-  Discretisation mesh(scene, options, communicator, false, work);
+  Discretisation mesh(scene, options, communicator, work);
   return simulate(std::move(mesh), scene, options, std::move(work), progress);
 }
 

@@ -22,7 +22,7 @@ double relative(double part, double whole) {
   return part == 0 ? 0 : part / whole;
 }
 
-Residuals measure_residuals(const RingSpace& space, const ContactProblem& problem,
+Residuals measure_residuals(const ContactBoundary& boundary, const ContactProblem& problem,
                             const ContactSolution& solution, FieldVector stiffness_times_u,
                             const std::optional<FieldVector>& load) {
   const auto& [displacement, force] = solution.state;
@@ -30,7 +30,7 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
   if (load)
     imbalance -= *load;
   for (unsigned int i = 0; i < problem.size(); ++i)
-    if (const auto dof = space.contact_nodes()[i].dof; imbalance.in_local_range(dof))
+    if (const auto dof = boundary.contact_nodes()[i].dof; imbalance.in_local_range(dof))
       imbalance(dof) += force(i);
 
   const Vector<double> gap = problem.gaps(displacement), pressure = problem.pressures(force);
@@ -50,8 +50,9 @@ Residuals measure_residuals(const RingSpace& space, const ContactProblem& proble
 /// @throws NotSolved where squares of such numbers overflow or there is none
 void require_finite(double squared, const std::string& what) {
   if (!std::isfinite(squared))
-    throw NotSolved(what + " is beyond what numbers can hold: change Cylinder/Radial force or the "
-                           "radii, which must not be too close to each other either");
+    throw NotSolved(what +
+                    " overflows double precision: change Cylinder/Radial force or the radii, "
+                    "which must not be too close to each other either");
 }
 
 /// Makes the force and the load of @p cache those of the scene.
@@ -72,19 +73,19 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, Wor
 }
 
 /// The pressure profile's nodes in contact, and the distance of a load that is given.
-void solve_contact_on(const RunOptions& options, const RingSpace& space,
-                      const PressureProfile& start, ContactLinearSolver& solver,
-                      MeshSolution& solution) {
-  Vector<double> pressure = start.at(space.contact_nodes());
+void solve_contact_on(const RunOptions& options, const PressureProfile& start,
+                      ContactLinearSolver& solver, MeshSolution& solution) {
+  const ContactBoundary& boundary = solution.boundary;
+  Vector<double> pressure = start.at(boundary.contact_nodes());
   if (solution.scene.load) {
     RoadPosition road =
-        find_distance(solver, space, solution.scene, options.contact.most_steps, pressure);
+        find_distance(solver, boundary, solution.scene, options.contact.most_steps, pressure);
     solution.scene = with_distance(solution.scene, road.distance);
     if (const auto shortfall = missing_load_text(solution.scene, road.load))
       solution.shortfalls.push_back(*shortfall);
     pressure = std::move(road.pressure);
   }
-  solution.problem = make_contact_problem(space, solution.scene);
+  solution.problem = make_contact_problem(boundary, solution.scene);
   solution.contact = solve_contact(solver, solution.problem, options.contact, pressure);
   if (!solution.contact.remark.empty())
     solution.remarks.push_back(solution.contact.remark);
@@ -136,32 +137,35 @@ double PressureProfile::at(double angle) const {
   return (1 - t) * before->second + t * next->second;
 }
 
-MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
-                           const PressureProfile& start, MeshCache& cache, Work& work) {
-  MeshSolution solution;
-  solution.scene = scene;
+MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
+                           const ContactBoundary& candidates, const PressureProfile& start,
+                           MeshCache& cache, Work& work) {
+  const RingSpace& space = candidates.space();
+  MeshSolution solution = {scene, ContactBoundary(space, scene.zone())};
+  const ContactBoundary& boundary = solution.boundary;
   make_load(scene, space, cache, work);
   if (cache.stiffness.solver)
-    cache.stiffness.solver->set_problem(scene, cache.load, work);
+    cache.stiffness.solver->set_problem(scene, boundary, cache.load, work);
   else
-    cache.stiffness = choose_solver(options.solver.kind, space, scene, cache.load, work);
+    cache.stiffness =
+        choose_solver(options.solver.kind, candidates, scene, boundary, cache.load, work);
   ContactLinearSolver& solver = *cache.stiffness.solver;
   if (!cache.stiffness.remark.empty())
     solution.remarks.push_back(cache.stiffness.remark);
   {
     const Work::Phase phase(work, "contact");
-    solve_contact_on(options, space, start, solver, solution);
+    solve_contact_on(options, start, solver, solution);
   }
   solution.displacement = solver.displacement_field(solution.contact.state);
   Loads stiffness;
   {
     const Work::Phase phase(work, "contact");
-    stiffness = contact_stiffness(solver, space, solution.scene, solution.problem, solution.contact,
-                                  options.contact.most_steps);
+    stiffness = contact_stiffness(solver, boundary, solution.scene, solution.problem,
+                                  solution.contact, options.contact.most_steps);
   }
   const Work::Phase phase(work, "measurement");
   solution.resultants =
-      measure_contact(solution.scene, space.contact_nodes(), solution.problem, solution.contact);
+      measure_contact(solution.scene, boundary.contact_nodes(), solution.problem, solution.contact);
   solution.resultants.stiffness = stiffness;
   if (reaches_tangent(solution.problem, solution.contact.active))
     leave_out_unresolved(solution);
@@ -170,7 +174,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const 
   const double work_of_force = cache.load ? solution.displacement * *cache.load : 0.;
   require_finite(norm_squared + std::abs(work_of_force), "the energy");
   solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
-  solution.residuals = measure_residuals(space, solution.problem, solution.contact,
+  solution.residuals = measure_residuals(boundary, solution.problem, solution.contact,
                                          std::move(stiffness_times_u), cache.load);
   return solution;
 }

@@ -74,7 +74,7 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
                              ", which must be larger than the cylinder and the distance"));
   // The axle sees a drum of the radius 1/kappa under an angle of about 1 / (kappa b). Angles of a
   // mesh are known to angular_round_off, which must stay below a thousandth of that.
-  const double most_curvature = 1e-3 / Scene::angular_round_off / b;
+  const double most_curvature = 1e-3 / angular_round_off / b;
   if (road.curvature > most_curvature)
     refuse("Curvature", text("the drum is too thin for the accuracy of angles; it must be at most ",
                              most_curvature));

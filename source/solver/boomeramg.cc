@@ -110,7 +110,7 @@ BoomerAmg::BoomerAmg(const TrilinosWrappers::SparseMatrix& matrix, const IndexSe
   HYPRE_BoomerAMGSetCoarsenType(cycle, ruge_stueben);
   HYPRE_BoomerAMGSetInterpType(cycle, classical);
   HYPRE_BoomerAMGSetPMaxElmts(cycle, 0); // nothing cut off
-  // Along an axis of stretched elements couplings are strong, and multigrid shall coarsen along
+  // Along an axis of stretched elements couplings are strong, and multigrid must coarsen along
   // that axis only. Where it is that of z, neighbours across the corner of linear elements couple
   // half as strongly as those in z on the surface, and a quarter inside.
   HYPRE_BoomerAMGSetStrongThreshold(cycle, 0.55);

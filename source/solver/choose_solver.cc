@@ -16,12 +16,12 @@ using namespace dealii;
 namespace {
 
 /// @throws NotEnoughMemory, whatever has noticed it
-std::unique_ptr<ContactLinearSolver> make_direct(const RingSpace& space, const Scene& scene,
-                                                 const std::optional<FieldVector>& load,
-                                                 Work& work) {
+std::unique_ptr<ContactLinearSolver>
+make_direct(const ContactBoundary& candidates, const Scene& scene, const ContactBoundary& boundary,
+            const std::optional<FieldVector>& load, Work& work) {
   try {
-    auto solver = std::make_unique<DirectSolver>(space);
-    solver->set_problem(scene, load, work);
+    auto solver = std::make_unique<DirectSolver>(candidates);
+    solver->set_problem(scene, boundary, load, work);
     return solver;
   } catch (const std::bad_alloc&) {
   } catch (const ExcOutOfMemory&) { // by the vectors of deal.II
@@ -31,30 +31,30 @@ std::unique_ptr<ContactLinearSolver> make_direct(const RingSpace& space, const S
 
 /// True if the dense factorisations for m contact nodes, m^3 operations each, take longer than
 /// conjugate gradients on all unknowns.
-bool is_dense_part_slow(const RingSpace& space) {
+bool is_dense_part_slow(const ContactBoundary& candidates) {
   constexpr double most_operations = 2e6; // for each unknown, measured
-  const double m = space.candidate_nodes().size();
-  return m * m * m > most_operations * space.n_unknowns();
+  const double m = candidates.size();
+  return m * m * m > most_operations * candidates.space().n_unknowns();
 }
 
 } // namespace
 
-SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
-                           const std::optional<FieldVector>& load, Work& work) {
+SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
+                           const ContactBoundary& boundary, const std::optional<FieldVector>& load,
+                           Work& work) {
   SolverChoice choice;
-  if (!is_alone(space.communicator())) {
+  if (!is_serial(candidates.space().communicator())) {
     AssertThrow(kind != SolverKind::direct, ExcInternalError());
     kind = SolverKind::iterative;
   }
-  if (kind == SolverKind::automatic && is_dense_part_slow(space)) {
+  if (kind == SolverKind::automatic && is_dense_part_slow(candidates)) {
     kind = SolverKind::iterative;
     choice.remark = "solved iteratively: the dense factorisations of " +
-                    std::to_string(space.candidate_nodes().size()) +
-                    " contact nodes would take longer";
+                    std::to_string(candidates.size()) + " contact nodes would take longer";
   }
   if (kind != SolverKind::iterative)
     try {
-      choice.solver = make_direct(space, scene, load, work);
+      choice.solver = make_direct(candidates, scene, boundary, load, work);
       return choice;
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
@@ -62,8 +62,8 @@ SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene&
       choice.remark = "solved iteratively: " + shortage.reason;
     }
   choice.kind = SolverKind::iterative;
-  choice.solver = std::make_unique<IterativeSolver>(space);
-  choice.solver->set_problem(scene, load, work);
+  choice.solver = std::make_unique<IterativeSolver>(candidates);
+  choice.solver->set_problem(scene, boundary, load, work);
   return choice;
 }
 

@@ -2,6 +2,8 @@
 
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -30,7 +32,7 @@ void DirectSolver::factorise(const Scene& scene) {
   }
   const Work::Phase phase(*work, "factorisation");
   cholesky.factorise(*work);
-  const unsigned int m = space.candidate_nodes().size();
+  const unsigned int m = candidates.size();
   factor.reinit(m);
   factor = cholesky.factor().trailing_factor(m);
   schur.reinit(m);
@@ -39,17 +41,14 @@ void DirectSolver::factorise(const Scene& scene) {
   angular_velocity = scene.angular_velocity;
 }
 
-void DirectSolver::set_problem(const Scene& scene, const std::optional<FieldVector>& load,
-                               Work& work) {
+void DirectSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
+                               const std::optional<FieldVector>& load, Work& work) {
+  const auto first = candidates.contact_number(boundary.first_surface_node());
+  AssertThrow(first && *first + boundary.size() <= candidates.size(), ExcInternalError());
+  this->boundary = boundary;
   this->work = &work;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
-  const auto& candidates = space.candidate_nodes();
-  first_contact = std::find_if(candidates.begin(), candidates.end(),
-                               [&](const SurfaceNode& node) {
-                                 return node.dof == space.contact_nodes().front().dof;
-                               }) -
-                  candidates.begin();
 
   const Work::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
@@ -70,13 +69,13 @@ void DirectSolver::set_problem(const Scene& scene, const std::optional<FieldVect
 template <typename Values>
 Values DirectSolver::on_candidates(const Values& contact_values) const {
   Values values(schur.m());
-  std::copy(contact_values.begin(), contact_values.end(), values.begin() + first_contact);
+  std::copy(contact_values.begin(), contact_values.end(), values.begin() + first_contact());
   return values;
 }
 
 Vector<double> DirectSolver::on_contact(const Vector<double>& values) const {
-  const auto first = values.begin() + first_contact;
-  return Vector<double>(first, first + space.contact_nodes().size());
+  const auto first = values.begin() + first_contact();
+  return Vector<double>(first, first + boundary.size());
 }
 
 Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {

@@ -10,8 +10,9 @@ namespace rollwave {
 
 using namespace dealii;
 
-void IterativeSolver::set_problem(const Scene& scene, const std::optional<FieldVector>& load,
-                                  Work& work) {
+void IterativeSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
+                                  const std::optional<FieldVector>& load, Work& work) {
+  this->boundary = boundary;
   this->load = &load;
   this->work = &work;
   if (angular_velocity == scene.angular_velocity)
@@ -29,7 +30,7 @@ Vector<double> IterativeSolver::reactions(const FieldVector* f, const FieldVecto
   force *= -1;
   if (f)
     force += *f;
-  return space.contact_values(force);
+  return boundary.contact_values(force);
 }
 
 double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& state,
@@ -39,7 +40,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, ContactState& sta
 
 double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector* f, FieldVector& u,
                               ContactState& state, double accuracy) {
-  const auto& nodes = space.contact_nodes();
+  const auto& nodes = boundary.contact_nodes();
   AssertDimension(pinned.size(), nodes.size());
   IndexSet pinned_dofs(space.dof_handler().n_dofs());
   FieldVector rhs = f ? *f : space.make_field();
@@ -66,7 +67,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector
   };
   const double residual = system.improve(u, rhs, scale, accuracy, *work);
 
-  const Vector<double> force = reactions(f, u), displacement = space.contact_values(u);
+  const Vector<double> force = reactions(f, u), displacement = boundary.contact_values(u);
   for (unsigned int i = 0; i < nodes.size(); ++i)
     if (pinned[i])
       state.force(i) = force(i);
@@ -76,7 +77,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector
 }
 
 Vector<double> IterativeSolver::response(const Vector<double>& force, double accuracy) {
-  const auto& nodes = space.contact_nodes();
+  const auto& nodes = boundary.contact_nodes();
   system.pin(IndexSet(space.dof_handler().n_dofs()));
   FieldVector rhs = space.make_field(), u = space.make_field();
   for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -84,7 +85,7 @@ Vector<double> IterativeSolver::response(const Vector<double>& force, double acc
       rhs(nodes[i].dof) = force(i);
   system.improve(
       u, rhs, [&](const FieldVector&) { return force.l2_norm(); }, accuracy, *work);
-  return space.contact_values(u);
+  return boundary.contact_values(u);
 }
 
 ContactState IterativeSolver::derivative(const std::vector<bool>& pinned,
@@ -96,7 +97,8 @@ ContactState IterativeSolver::derivative(const std::vector<bool>& pinned,
 }
 
 FieldVector IterativeSolver::displacement_field(const ContactState& state) {
-  if (space.contact_values(field) != state.displacement) { // it is not the state of the last solve
+  if (boundary.contact_values(field) !=
+      state.displacement) { // it is not the state of the last solve
     constexpr double accuracy = 1e-11;
     ContactState same = state;
     solve(std::vector<bool>(state.displacement.size(), true), same, accuracy);

@@ -128,7 +128,7 @@ Panel profiles(const Study& study) {
   Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
               "contact pressure" + study.units().in_brackets(Quantity::pressure),
               {}};
-  for (const unsigned int run : evenly(study.runs.size(), most_curves))
+  for (const unsigned int run : equidistant_numbers(study.runs.size(), most_curves))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)

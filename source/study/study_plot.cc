@@ -11,7 +11,7 @@ namespace rollwave {
 
 namespace {
 
-/// Colours of curves; with dashes and points they can be told apart in print as well.
+/// Colours of curves; with dashes and points they can be distinguished in print as well.
 const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                           "#000000", "#e69f00", "#56b4e9", "#8b4513",
                                           "#7a3fbf", "#808000", "#d00030", "#707070"};
@@ -80,17 +80,17 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << '\n' << data.str();
 }
 
-/// Evenly chosen curves, where there are more than can be told apart.
+/// All curves, or most_curves of them at equal distances.
 std::vector<Curve> distinct(const std::vector<Curve>& curves) {
   std::vector<Curve> chosen;
-  for (const unsigned int i : evenly(curves.size(), most_curves))
+  for (const unsigned int i : equidistant_numbers(curves.size(), most_curves))
     chosen.push_back(curves[i]);
   return chosen;
 }
 
 } // namespace
 
-std::vector<unsigned int> evenly(unsigned int n, unsigned int most) {
+std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most) {
   const unsigned int n_chosen = std::min(n, most);
   std::vector<unsigned int> chosen;
   for (unsigned int i = 0; i < n_chosen; ++i)

@@ -33,7 +33,7 @@ std::string text_of(const fs::path& directory, const std::string& name) {
 unsigned int take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
   const bool goes_on = process_number(communicator) == 0 && is_of_same_run(parameters);
   const auto read = [&](const char* name) {
-    return share_text(communicator, goes_on ? text_of(parameters.output.directory, name) : "");
+    return broadcast(communicator, goes_on ? text_of(parameters.output.directory, name) : "");
   };
   read_csv(read("study.csv"), study);
   read_profiles(read("study-profiles.csv"), study);
@@ -105,7 +105,7 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
   const bool is_first = process_number(communicator) == 0;
   const unsigned int n_earlier = take_over(study, parameters, communicator);
   if (n_earlier > 0)
-    out << n_earlier << " of " << study.runs.size() << " runs are in study.csv\n";
+    out << n_earlier << " of " << study.runs.size() << " runs are reused from study.csv\n";
   if (is_first) {
     write_tables(study, directory); // first: with the parameters of another study it is not read
     WrittenFiles written;
@@ -121,7 +121,7 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
       throw Interrupted("interrupted before the first run was made");
     study.shortfall = "interrupted after " + std::to_string(n_made) + " of " +
                       std::to_string(study.runs.size()) +
-                      " runs; the same command goes on with the others";
+                      " runs; rerun the same command to continue";
   }
 }
 

@@ -68,7 +68,7 @@ StudyRun StudySolver::solve(unsigned int number) {
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
   } catch (const std::bad_alloc&) {
-    if (!is_alone(communicator))
+    if (!is_serial(communicator))
       throw; // the others do not know
     run.failure = NotEnoughMemory().what();
   }
@@ -96,7 +96,7 @@ void StudySolver::warm_up() {
 }
 
 Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
-  Scene scene = make_scene(plan.parameters);
+  const Scene scene = make_scene(plan.parameters);
   const Settings key = settings_of(plan, Affects::mesh);
   std::optional<Discretisation> mesh;
   if (last_mesh == key) {
@@ -108,10 +108,9 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   const auto zone = widest_zone.find(key);
   if (zone == widest_zone.end())
     return simulate(scene, plan.parameters, communicator);
-  scene.shared_zone = zone->second;
   Work work;
   if (!mesh)
-    mesh.emplace(scene, plan.parameters, communicator, true, work);
+    mesh.emplace(scene, plan.parameters, communicator, work, zone->second);
   Solution shared = simulate(std::move(*mesh), scene, plan.parameters, std::move(work));
   last_mesh = key;
   if (!run.shared.empty() && shared.result.work.stiffness_assemblies == 0)

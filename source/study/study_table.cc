@@ -19,7 +19,7 @@ namespace rollwave {
 namespace {
 
 std::string outcome_of(const StudyRun& run) {
-  return run.failure.empty() ? "solved" : run.is_solved() ? "falls short" : "not solved";
+  return run.failure.empty() ? "solved" : run.is_solved() ? "target not reached" : "not solved";
 }
 
 /// @param in_format makes a text one of the table's format
@@ -114,12 +114,12 @@ void print_study_notes(std::ostream& out, const Study& study) {
         remarks.emplace_back(run, remark);
     }
   out << "\nN: unknowns; steps: of the contact iteration; error, certified: true and bounded, "
-         "relative in the\nenergy norm. study.csv has more; its column shared names what seconds "
-         "leave out.\n";
+         "relative in the\nenergy norm. study.csv has more. Its times exclude work reused from an "
+         "earlier run (column shared).\n";
   if (study.has("error.exact_relative"))
     out << "Errors against the semi-analytic solution.\n";
   print_once(out, "Not solved", failures, study.runs.size());
-  print_once(out, "Falls short", shortfalls, study.runs.size());
+  print_once(out, "Target not reached", shortfalls, study.runs.size());
   print_once(out, "Note", remarks, study.runs.size());
   report_orders(out, study);
 }

@@ -1,7 +1,7 @@
 #include "rollwave/verify/true_errors.h"
 
 #include "rollwave/exact/exact_field.h"
-#include "rollwave/mesh/line_elements.h"
+#include "rollwave/mesh/surface_trace.h"
 
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/tanh_sinh.hpp>
@@ -12,7 +12,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <memory>
 #include <vector>
 
 namespace rollwave {
@@ -115,34 +114,30 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
 }
 
 /// u_h on r = b, one piece for each edge.
-SurfaceFunction trace_of(const RingSpace& space, const FieldVector& field) {
-  SurfaceFunction trace;
-  const auto shapes = lobatto_lagrange(space.dof_handler().get_fe().degree);
-  const auto values = std::make_shared<std::vector<double>>(space.surface_values(field));
-  for (const SurfaceFace& face : space.surface_faces())
-    trace.push_back({face.begin, face.end, [&face, values, shapes](double z) {
-                       const double t = (z - face.begin) / (face.end - face.begin);
-                       double sum = 0;
-                       for (unsigned int i = 0; i < shapes.size(); ++i)
-                         sum += (*values)[face.nodes[i]] * shapes[i].value(t);
-                       return sum;
-                     }});
-  return trace;
+SurfaceFunction pieces_of(const SurfaceTrace& trace) {
+  SurfaceFunction pieces;
+  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
+    const SurfaceFace& face = trace.faces()[i];
+    pieces.push_back({face.begin, face.end, [&trace, &face, i](double z) {
+                        return trace.value(i, (z - face.begin) / (face.end - face.begin));
+                      }});
+  }
+  return pieces;
 }
 
 /// The feasible displacement v on r = b.
-SurfaceFunction trace_of(const RingSpace& space, const AdmissibleTrace& feasible) {
-  SurfaceFunction trace;
+SurfaceFunction pieces_of(const RingSpace& space, const AdmissibleTrace& feasible) {
+  SurfaceFunction pieces;
   for (unsigned int i = 0; i < space.surface_faces().size(); ++i) {
     const SurfaceFace& face = space.surface_faces()[i];
     const double length = face.end - face.begin;
     for (const auto& piece : feasible.pieces(i))
-      trace.push_back({face.begin + piece.t_begin * length, face.begin + piece.t_end * length,
-                       [&feasible, &piece, i, length, begin = face.begin](double z) {
-                         return feasible.displacement(i, piece, (z - begin) / length);
-                       }});
+      pieces.push_back({face.begin + piece.t_begin * length, face.begin + piece.t_end * length,
+                        [&feasible, &piece, i, length, begin = face.begin](double z) {
+                          return feasible.displacement(i, piece, (z - begin) / length);
+                        }});
   }
-  return trace;
+  return pieces;
 }
 
 /// b int lambda w dz
@@ -183,9 +178,9 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   const double floor = (is_cut ? 1e-5 : 5e-6) * std::sqrt(exact.norm_squared);
   const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
 
+  const SurfaceTrace trace(space, field);
   TrueErrors errors;
-  errors.energy_norm =
-      energy_distance(exact, trace_of(space, field), result.energy.norm_squared, work);
+  errors.energy_norm = energy_distance(exact, pieces_of(trace), result.energy.norm_squared, work);
   errors.relative_energy_norm =
       exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
   errors.l2_norm = l2_error(space, field, exact);
@@ -202,7 +197,7 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
     const CertifiedError& certified = certificate->error;
     const double work_of_feasible = certificate->work_of_force;
     const double energy = certified.norm_squared / 2 - work_of_feasible;
-    errors.admissible_energy_norm = energy_distance(exact, trace_of(space, certificate->trace),
+    errors.admissible_energy_norm = energy_distance(exact, pieces_of(space, certificate->trace),
                                                     certified.norm_squared, work_of_feasible);
     // a(v - u, v - u) <= 2 (J(v) - J(u)) for every v in K: what is clearly more is the exact
     // answer's own error.

@@ -26,7 +26,7 @@ struct NotSolved : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What NotSolved says, where a method needs more memory than there is.
+/// Thrown where a method needs more memory than there is.
 struct NotEnoughMemory : NotSolved {
   /// @p reason says what needs how much; the advice is added.
   explicit NotEnoughMemory(const std::string& reason = "not enough memory")

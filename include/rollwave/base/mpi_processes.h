@@ -16,7 +16,7 @@ struct MpiSession {
 // MPI need not run for these: without it there is one process.
 
 /// True for the communicator of one process.
-bool is_alone(MPI_Comm communicator);
+bool is_serial(MPI_Comm communicator);
 
 unsigned int count_processes(MPI_Comm communicator);
 
@@ -24,7 +24,7 @@ unsigned int count_processes(MPI_Comm communicator);
 unsigned int process_number(MPI_Comm communicator);
 
 /// The text of rank 0, on all ranks.
-std::string share_text(MPI_Comm communicator, const std::string& text);
+std::string broadcast(MPI_Comm communicator, const std::string& text);
 
 /// The text of the first rank that has one, on all ranks; empty if no rank has one.
 std::string first_text(MPI_Comm communicator, const std::string& text);

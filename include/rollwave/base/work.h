@@ -12,7 +12,7 @@
 
 namespace rollwave {
 
-/// What a run has done and how long each phase took, so that it can be seen what a scene costs.
+/// Counts of the work of a run and the seconds of its phases.
 class Work {
 public:
   /// Called when a phase has ended, with the seconds of this once.

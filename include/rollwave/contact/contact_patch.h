@@ -19,7 +19,7 @@ struct ContactPatch {
   double length = 0; ///< of the road under it
 };
 
-/// What the road feels of the contact. Forces are per unit length of the axle and unit shear
+/// Resultants of the contact. Forces are per unit length of the axle and unit shear
 /// modulus, so that they are lengths, like the displacement.
 struct ContactResultants {
   std::vector<ContactPatch> patches; ///< by increasing angle

@@ -70,15 +70,15 @@ struct Loads {
 /// The loads of nodal forces by the rule [.,.]_h.
 Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& force);
 
-/// What the residuals of a solved scene are to be: relative to its data.
+/// The largest admissible residuals of a solved scene, relative to its data.
 constexpr double wanted_residual = 1e-10;
 
-/// What contact methods ask of ContactLinearSolver::solve(): little while the contact still
-/// changes, and what the solution they return shall hold to.
+/// The accuracies that contact methods ask of ContactLinearSolver::solve(): while the contact still
+/// changes, and for the solution that they return.
 constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
 
-/// The contact conditions at the contact nodes of @p space.
-ContactProblem make_contact_problem(const RingSpace& space, const Scene& scene);
+/// The contact conditions at the nodes of the @p boundary of a scene.
+ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene& scene);
 
 /// One line of the history of a contact iteration.
 struct ContactStep {

@@ -2,10 +2,9 @@
 #define ROLLWAVE_ERROR_BOUND_ADMISSIBLE_DISPLACEMENT_H
 
 #include "rollwave/contact/contact_problem.h"
+#include "rollwave/mesh/surface_trace.h"
 
-#include <deal.II/base/polynomial.h>
-
-#include <functional>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -28,7 +27,7 @@ public:
   struct Piece {
     enum class Kind {
       outside, ///< of the zone: c is a straight line from value_begin to value_end
-      limited, ///< c = -(u_h - phi)^+, of one sign but for roots not found
+      limited, ///< c = -(u_h - phi)^+, of one sign, except for roots that were not found
       touching ///< c = phi - u_h
     } kind;
     double t_begin;
@@ -38,11 +37,11 @@ public:
   };
 
   /// @p field must not exceed phi at the contact nodes, and equal it at the active ones.
-  AdmissibleTrace(const RingSpace& space, const Scene& scene, const FieldVector& field,
+  AdmissibleTrace(const ContactBoundary& boundary, const Scene& scene, const FieldVector& field,
                   const std::vector<bool>& active);
 
   /// The pieces of an edge, numbered as RingSpace::surface_faces(), in the order of t.
-  const std::vector<Piece>& pieces(unsigned int face) const { return edges[face].pieces; }
+  const std::vector<Piece>& pieces(unsigned int face) const { return edges[face]; }
 
   struct Correction {
     double value; ///< c, a length
@@ -55,27 +54,19 @@ public:
   double displacement(unsigned int face, const Piece& piece, double t) const;
 
 private:
-  struct Edge {
-    double begin;
-    double end;
-    std::vector<double> nodal_values;
-    std::vector<Piece> pieces;
-  };
-
-  struct ValueAndSlope {
-    double value, slope; ///< the latter by z
-  };
-  ValueAndSlope excess(const Edge& edge, double t) const; ///< u_h - phi
-  void find_pieces(Edge& edge, double zone_begin, double zone_end) const;
+  std::vector<Piece> pieces_of(unsigned int face, const std::pair<double, double>& zone,
+                               bool touches) const;
+  std::vector<Piece> limited_pieces(unsigned int face, double zone_begin, double zone_end) const;
+  SurfaceTrace::ValueAndSlope excess(unsigned int face, double t) const; ///< u_h - phi
 
   Obstacle phi;
-  std::vector<dealii::Polynomials::Polynomial<double>> shapes;
-  std::vector<Edge> edges;
+  SurfaceTrace discrete; ///< u_h
+  std::vector<std::vector<Piece>> edges;
 };
 
 /// @p field with its contact nodes moved to the road where they are active or beyond it; the
 /// constraints hold after it.
-FieldVector project_contact_nodes(const RingSpace& space, const ContactProblem& problem,
+FieldVector project_contact_nodes(const ContactBoundary& boundary, const ContactProblem& problem,
                                   const std::vector<bool>& active, FieldVector field);
 
 } // namespace rollwave

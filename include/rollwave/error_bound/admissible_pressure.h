@@ -5,7 +5,7 @@
 
 namespace rollwave {
 
-class RingSpace;
+class ContactBoundary;
 struct ContactSolution;
 struct Scene;
 
@@ -27,7 +27,7 @@ struct EdgePressure {
  * lambda on r = b is a StressFunction of this degree. Where contact ends close to a vertex, the
  * edge in contact gets the share of the edge outside, which would lie under the gap.
  */
-std::vector<EdgePressure> admissible_pressures(const RingSpace& space, const Scene& scene,
+std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, const Scene& scene,
                                                const ContactSolution& contact);
 
 } // namespace rollwave

@@ -18,7 +18,7 @@ struct CertificateOptions {
   bool load_bounds = false;
 };
 
-/// What a Certificate guarantees; bounds are infinite where there is none.
+/// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
 struct CertifiedError {
   double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
   double force_data;   ///< its share delta for what G_h misses of the force, see ForceIntegral
@@ -27,8 +27,8 @@ struct CertifiedError {
   double upper_bound;  ///< of J(u), the energy J(v)
   double norm_squared; ///< a(v, v)
 
-  /// What a force that is an expression has of strips that are narrower may be missed, and of spots
-  /// smaller than a cell: a length, 0 without such a force.
+  /// Features of a force expression that are smaller than this length may be undetected; 0 without
+  /// such a force.
   double sampled_width;
 };
 
@@ -63,13 +63,14 @@ struct Certificate {
   double work_of_force;            ///< (f, v), by G_h
 };
 
-/// Certifies the solution @p contact with the displacement @p field.
+/// Certifies the solution @p contact on the @p boundary of a scene with the displacement @p field.
 /// @param force that of the scene, nullptr without
 /// @param stress_function of the same space and speed
 /// @throws NotSolved when an iteration fails
-Certificate certify(const RingSpace& space, const Scene& scene, const ContactProblem& problem,
-                    const ContactSolution& contact, const FieldVector& field,
-                    const ForceIntegral* force, StressFunction& stress_function, Work& work);
+Certificate certify(const ContactBoundary& boundary, const Scene& scene,
+                    const ContactProblem& problem, const ContactSolution& contact,
+                    const FieldVector& field, const ForceIntegral* force,
+                    StressFunction& stress_function, Work& work);
 
 } // namespace rollwave
 

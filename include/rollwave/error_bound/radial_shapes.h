@@ -82,7 +82,7 @@ struct RadialShapes {
 /// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
 class RadialShapesOfMesh {
 public:
-  /// By Gauss' rules that are exact but for 1e-13 where the factor 1/r makes them inexact.
+  /// By Gauss' rules that are exact or, with the factor 1/r, accurate to 1e-13.
   RadialShapesOfMesh(const Scene& scene, unsigned int degree);
 
   const RadialShapes& on(double begin, double end);

@@ -31,7 +31,7 @@ struct ExactSolution {
   double norm_squared;        ///< a(u, u)
   double peak_pressure;
 
-  /// What is believed to have been reached, relative: numbers are limits of the growing series.
+  /// Estimated relative errors: the numbers are limits of the growing series.
   double force_accuracy;
   double energy_accuracy;
   double half_width_accuracy;
@@ -48,7 +48,7 @@ struct ExactSolution {
   GegenbauerPressure pressure;
 };
 
-/// @throws NotSolved when the series does not settle.
+/// @throws NotSolved when the series does not converge.
 ExactSolution solve_exactly(const ExactScene& scene);
 
 } // namespace rollwave

@@ -18,7 +18,7 @@ struct RadialRule {
 };
 
 /// The ends of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut into for
-/// integrands that are smooth but for a pole at r = 0.
+/// integrands that are smooth except for a pole at r = 0.
 std::vector<double> graded_radii(double begin, double end);
 
 /// @p points on each of these pieces.

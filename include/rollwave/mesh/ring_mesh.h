@@ -29,7 +29,7 @@ struct MeshOptions {
   unsigned int most_unknowns = 5000000;
 };
 
-/// The unknowns of the first mesh, but for the few that the hub takes away.
+/// The unknowns of the first mesh, including the few on the hub.
 double count_unknowns(const MeshOptions& mesh);
 
 /// @throws BadValue when the first mesh would have more than `Mesh/Most unknowns` unknowns.

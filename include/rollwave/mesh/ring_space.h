@@ -6,7 +6,6 @@
 #include <deal.II/fe/mapping_cartesian.h>
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
-#include <deal.II/lac/vector.h>
 
 #include <map>
 #include <memory>
@@ -46,7 +45,7 @@ struct SurfaceFace {
  */
 class RingSpace {
 public:
-  /// @throws BadInput when no node of the mesh lies in the contact zone.
+  /// @param scene whose zone is in the middle of the range of the surface nodes' angles
   RingSpace(const dealii::Triangulation<2>& triangulation, const Scene& scene, unsigned int degree);
 
   const dealii::DoFHandler<2>& dof_handler() const { return handler; }
@@ -77,26 +76,8 @@ public:
   std::optional<unsigned int>
   surface_face(const dealii::Triangulation<2>::active_cell_iterator& cell) const;
 
-  /// The nodes in [z0, z1], a stretch of surface_nodes().
-  const std::vector<SurfaceNode>& contact_nodes() const { return contact; }
-
-  /// The contact nodes of all scenes on the same mesh: those in Scene::shared_zone.
-  const std::vector<SurfaceNode>& candidate_nodes() const { return candidates; }
-
-  /// Makes contact_nodes() those of a scene with the same shared zone. @throws BadInput as the
-  /// constructor.
-  void set_contact_zone(const Scene& scene);
-
-  /// The number among contact_nodes() of a node of surface_nodes(), if it is one.
-  std::optional<unsigned int> contact_number(unsigned int surface_node) const {
-    if (surface_node < first_contact || surface_node >= first_contact + contact.size())
-      return {};
-    return surface_node - first_contact;
-  }
-
-  /// The values of a field at the surface nodes, and at the contact nodes, on every process.
+  /// The values of a field at the surface nodes, on every process.
   std::vector<double> surface_values(const FieldVector& field) const;
-  dealii::Vector<double> contact_values(const FieldVector& field) const;
 
   /// dissect(), when first asked for. For one process.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
@@ -120,8 +101,6 @@ private:
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
   unsigned int unknowns;
   std::vector<SurfaceNode> surface;
-  std::vector<SurfaceNode> contact, candidates;
-  unsigned int first_contact = 0; ///< number of its first node in surface
   std::vector<SurfaceFace> faces;
   std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for

@@ -11,7 +11,7 @@
 
 namespace rollwave {
 
-/// What the user asked for.
+/// The arguments of a call.
 struct CommandLine {
   enum class Action { run, help, version, parameters, quantities };
   Action action = Action::run;

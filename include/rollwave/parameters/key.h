@@ -26,7 +26,7 @@ const Setting* last_of(const std::vector<Setting>& settings, const std::string& 
 /// The message on a refused value: origin, section, key, value and reason.
 std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
 
-/// What depends on a key; one key may have several of these flags.
+/// The parts of a run that depend on a key; a key may have several of these flags.
 struct Affects {
   enum : unsigned int {
     scene = 1,      ///< the problem that is solved

@@ -3,7 +3,7 @@
 
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/stress_function.h"
-#include "rollwave/mesh/ring_space.h"
+#include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/run/run_options.h"
 #include "rollwave/solver/choose_solver.h"
 
@@ -12,12 +12,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// What scenes on one mesh share. Each part is made when it is first needed, and updated for
-/// another scene at the cost of what differs.
+/// The data that scenes on one mesh share. Each part is made when it is first needed, and updated
+/// for another scene at the cost of what differs.
 struct MeshCache {
   SolverChoice stiffness; ///< its kind outlives the solver
   std::unique_ptr<StressFunction> dual;
@@ -32,15 +33,18 @@ struct MeshCache {
 /// A mesh with its space and its matrices; the members are listed in the order of their dependence.
 struct Discretisation {
   /// The first mesh of @p options.
-  /// @param is_shared true if several scenes are solved on it, so that its matrices are kept
+  /// @param shared_zone where several scenes are solved on it, so that its matrices are kept: one
+  /// that holds the zones of all of them
   /// @throws BadInput for a mesh without a node in the zone of possible contact
-  Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                 bool is_shared, Work& work);
+  Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator, Work& work,
+                 const std::optional<std::pair<double, double>>& shared_zone = {});
 
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
   std::unique_ptr<RingSpace> space;
-  MeshCache cache;
   bool is_shared;
+  std::pair<double, double> widest_zone; ///< of all scenes that are solved on it
+  ContactBoundary candidates;            ///< of the widest zone
+  MeshCache cache;
 
   MPI_Comm communicator() const { return space->communicator(); }
 

@@ -7,7 +7,7 @@
 namespace rollwave {
 
 /// The result of a solution on one mesh. It lacks error bounds, the list of meshes, and work.
-Result measure(const RingSpace& space, const MeshSolution& solution);
+Result measure(const MeshSolution& solution);
 
 } // namespace rollwave
 

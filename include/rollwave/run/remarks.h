@@ -1,27 +1,26 @@
 #ifndef ROLLWAVE_RUN_REMARKS_H
 #define ROLLWAVE_RUN_REMARKS_H
 
-#include "rollwave/mesh/ring_space.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
-#include "rollwave/scene/scene.h"
+#include "rollwave/run/solve_on_mesh.h"
 
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// What a reader of the figures should know beside them: that contact ends with the zone, that the
+/// Notes for a reader of the numbers: that contact ends with the zone, that the
 /// surface lies within the road outside of it, that the bound of the error says nothing, that the
 /// mesh does not resolve the contact, or that displacements exceed the thickness of the ring.
-std::vector<std::string> remarks_on(const Scene& scene, const RunOptions& options,
-                                    const RingSpace& space, const Result& result);
+std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
+                                    const Result& result);
 
-/// What of the wanted error is missing and why, and what to do.
+/// A text on the certified error that was reached, and which parameter to change.
 std::string missing_error_text(const RunOptions& options, const Result& result,
                                bool is_at_finest_level);
 
-/// That the conditions of contact and equilibrium do not hold as well as wanted.
+/// A text on conditions of contact and equilibrium that do not hold to wanted_residual.
 std::string residual_text(const Residuals& residuals);
 
 } // namespace rollwave

@@ -55,7 +55,7 @@ struct Residuals {
 struct TrueErrors {
   double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
   double relative_energy_norm; ///< over that of u
-  bool is_resolved;            ///< whether the exact solution is accurate enough to tell it
+  bool is_resolved;            ///< true if the exact solution is accurate enough for it
   double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
   double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
   double force;                ///< |F - F_h|
@@ -63,7 +63,7 @@ struct TrueErrors {
   double half_width;           ///< |w - w_h|
   std::optional<double> exact_distance; ///< where a load is given
 
-  /// sqrt(a(u - v, u - v)) of the feasible displacement v that the certificate speaks of, and the
+  /// sqrt(a(u - v, u - v)) of the feasible displacement v of the certificate, and the
   /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate, and
   /// J(v) - J(u) is not lost in the accuracy of J(u).
   std::optional<double> admissible_energy_norm;
@@ -106,8 +106,8 @@ struct Result {
   std::vector<CycleFigures> cycles;      ///< one for each mesh
   std::vector<ContactStep> history;      ///< on the last mesh
   double rho;                            ///< Uzawa's step length; 0 for the active set method
-  std::vector<std::string> remarks;      ///< what a reader of the figures should know
-  /// What was wanted and not reached, with the keys to change.
+  std::vector<std::string> remarks;      ///< notes for the reader
+  /// Targets that were not reached, with the keys to change.
   std::vector<std::string> shortfalls;
   bool is_interrupted = false; ///< by the user: the shortfalls say after what
   std::vector<ContactRow> contact_rows;

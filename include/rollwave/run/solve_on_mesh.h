@@ -37,23 +37,27 @@ private:
 
 /// The discrete problem and its solution on one mesh.
 struct MeshSolution {
-  Scene scene; ///< with the distance that a given load needs
-  ContactProblem problem;
-  ContactSolution contact;
-  FieldVector displacement; ///< u_h
-  ContactResultants resultants;
-  Energy energy; ///< of u_h
-  Residuals residuals;
-  std::vector<std::string> remarks;    ///< anything unusual that the user should know
-  std::vector<std::string> shortfalls; ///< targets that were not reached, with the keys to change
+  Scene scene;              ///< with the distance that a given load needs
+  ContactBoundary boundary; ///< of the scene's zone
+  ContactProblem problem = {};
+  ContactSolution contact = {};
+  FieldVector displacement = {}; ///< u_h
+  ContactResultants resultants = {};
+  Energy energy = {}; ///< of u_h
+  Residuals residuals = {};
+  std::vector<std::string> remarks = {};    ///< anything unusual that the user should know
+  std::vector<std::string> shortfalls = {}; ///< targets that were not reached, with the keys to
+                                            ///< change
 };
 
-/// Solves @p scene on @p space by the methods of @p options, beginning with the contact pressures
-/// @p start. @p cache is that of the same space.
-/// @throws BadInput where the force is not finite, NotSolved when a solver fails or a number is
-/// beyond what numbers can hold.
-MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options, const RingSpace& space,
-                           const PressureProfile& start, MeshCache& cache, Work& work);
+/// Solves @p scene by the methods of @p options, beginning with the contact pressures @p start.
+/// @param candidates the contact nodes of all scenes on the space
+/// @param cache that of the same space
+/// @throws BadInput where no node lies in the zone or the force is not finite, NotSolved when a
+/// solver fails or a number is beyond what numbers can hold.
+MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
+                           const ContactBoundary& candidates, const PressureProfile& start,
+                           MeshCache& cache, Work& work);
 
 } // namespace rollwave
 

@@ -38,6 +38,15 @@ struct RoadOptions {
   std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
 };
 
+/// Angles that are closer are the same: those of a mesh carry round-off of a few units in the last
+/// place.
+constexpr double angular_round_off = 1e-13;
+
+/// True if the angle @p z lies in the zone, except for round-off.
+inline bool lies_in_zone(double z, const std::pair<double, double>& zone) {
+  return zone.first - angular_round_off <= z && z <= zone.second + angular_round_off;
+}
+
 /**
  * An elastic ring rolling steadily over a road, after D. Ross and M. Bercovier, "Traveling waves in
  * a cylinder rolling on a flat surface", M2AN 25 (1991) 129-149.
@@ -74,13 +83,10 @@ struct Scene {
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
   double zone_end;   ///< z1 in (z0, z0 + 2 pi]; the zone may be the whole circle
 
-  /// Angles that are closer are the same: those of a mesh carry round-off of a few units in the
-  /// last place.
-  static constexpr double angular_round_off = 1e-13;
+  /// [z0, z1]
+  std::pair<double, double> zone() const { return {zone_begin, zone_end}; }
 
-  bool is_in_zone(double z) const {
-    return zone_begin - angular_round_off <= z && z <= zone_end + angular_round_off;
-  }
+  bool is_in_zone(double z) const { return lies_in_zone(z, zone()); }
 
   /// True if the zone is the whole circle, whose ends are one.
   bool is_whole_circle() const {
@@ -100,15 +106,11 @@ struct Scene {
   double least_distance = 0;   ///< the road can be no nearer than this
   bool has_given_zone = false; ///< whether the user has given the zone
 
-  /// A zone around [z0, z1] that holds those of all scenes on the same mesh, where there are
-  /// several.
-  std::optional<std::pair<double, double>> shared_zone = {};
-
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
 };
 
-/// What is wrong with a force that is not finite at a point, r in the scene's units.
+/// The refusal of a force that is not finite at a point, r in the scene's units.
 std::string force_not_finite_at(const Scene& scene, double r, double z);
 
 /// The scene with its road moved to the distance @p c below the axle, a length. The zone stays.

@@ -5,7 +5,7 @@
 
 namespace rollwave {
 
-/// What the user calls the units of a consistent system; empty without names.
+/// The user's names for the units of a consistent system; empty without names.
 struct UnitNames {
   std::string length, time, force;
 };
@@ -18,14 +18,14 @@ struct MaterialOptions {
   double width = 1;         ///< of the cylinder, along its axle
   UnitNames unit_names;
 
-  /// Whether any of the numbers is not 1.
+  /// True if any of the numbers is not 1.
   bool is_given() const { return shear_modulus != 1 || density != 1 || width != 1; }
 
   /// (mu / rho)^(1/2), a length over a time
   double wave_speed() const;
 };
 
-/// What a number of the program measures.
+/// The dimension of a number.
 enum class Quantity {
   number,
   count, ///< of things, a whole number

@@ -32,7 +32,7 @@ public:
   /// The degrees of freedom that are pinned from here on; every process knows all of them.
   void pin(const dealii::IndexSet& dofs);
 
-  /// What residuals are compared with, which may depend on the solution.
+  /// The scale of residuals, which may depend on the solution.
   using Scale = std::function<double(const FieldVector& u)>;
 
   /// Lowers |rhs - K u|_2 / scale(u), without the pinned rows, to @p accuracy, or to round-off

@@ -33,13 +33,15 @@ struct SolverChoice {
   SolverKind kind = SolverKind::direct; ///< never automatic
 };
 
-/// The kind of solver that @p kind asks for, turned to @p scene. "auto" is the direct kind or, on
+/// The kind of solver that @p kind asks for, set up for @p scene. "auto" is the direct kind or, on
 /// several processes and where its dense matrices of the contact nodes take too long or its factor
-/// too much memory, the iterative one. @p load and @p work are as for
+/// too much memory, the iterative one. @p boundary, @p load and @p work are as for
 /// ContactLinearSolver::set_problem().
+/// @param candidates the nodes of the zones of all scenes that the solver is set up for
 /// @throws NotSolved as the kinds do.
-SolverChoice choose_solver(SolverKind kind, const RingSpace& space, const Scene& scene,
-                           const std::optional<FieldVector>& load, Work& work);
+SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
+                           const ContactBoundary& boundary, const std::optional<FieldVector>& load,
+                           Work& work);
 
 } // namespace rollwave
 

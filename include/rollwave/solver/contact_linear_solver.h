@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
 #define ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
 
-#include "rollwave/mesh/ring_space.h"
+#include "rollwave/mesh/contact_boundary.h"
 
 #include <deal.II/lac/vector.h>
 
@@ -13,7 +13,7 @@ namespace rollwave {
 struct Scene;
 class Work;
 
-/// The state of the contact nodes, in the order of RingSpace::contact_nodes().
+/// The state of the contact nodes, in the order of ContactBoundary::contact_nodes().
 struct ContactState {
   dealii::Vector<double> displacement; ///< u_i, a length
 
@@ -34,17 +34,18 @@ class ContactLinearSolver {
 public:
   virtual ~ContactLinearSolver() = default;
 
-  /// Turns to a scene, which may differ from the one before in its speed, force and road: only what
-  /// depends on what has changed is computed again. @p load is the vector of the force,
-  /// nullopt when it is zero; it and @p work must live until the next call or the last use.
+  /// Sets up a scene, which may differ from the one before in its speed, force, road and zone: only
+  /// what depends on what has changed is computed again. @p boundary is that of the scene's zone,
+  /// within the candidates of the solver. @p load is the vector of the force, nullopt when it is
+  /// zero; it and @p work must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
-  virtual void set_problem(const Scene& scene, const std::optional<FieldVector>& load,
-                           Work& work) = 0;
+  virtual void set_problem(const Scene& scene, const ContactBoundary& boundary,
+                           const std::optional<FieldVector>& load, Work& work) = 0;
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.
   /// @param accuracy the relative residual |f - N - K u|_2 / max(|f|_2, |N|_2) that suffices
-  /// @return the relative residual reached; 0 where the solution is exact but for round-off
+  /// @return the relative residual reached; 0 where the solution is exact up to round-off
   /// @throws NotSolved when the accuracy is out of reach.
   virtual double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) = 0;
 

@@ -22,10 +22,13 @@ namespace rollwave {
  */
 class DirectSolver : public ContactLinearSolver {
 public:
-  explicit DirectSolver(const RingSpace& space)
-      : space(space), cholesky(space, space.candidate_nodes()) {}
+  /// @param candidates the nodes of all zones that set_problem() will get
+  explicit DirectSolver(const ContactBoundary& candidates)
+      : space(candidates.space()), candidates(candidates), boundary(candidates),
+        cholesky(space, candidates.contact_nodes()) {}
 
-  void set_problem(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
+  void set_problem(const Scene& scene, const ContactBoundary& boundary,
+                   const std::optional<FieldVector>& load, Work& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
   ContactState derivative(const std::vector<bool>& pinned,
@@ -44,9 +47,15 @@ private:
   Values on_candidates(const Values& contact_values) const;
   dealii::Vector<double> on_contact(const dealii::Vector<double>& values) const;
 
+  /// The place of the first contact node among the candidates.
+  unsigned int first_contact() const {
+    return boundary.first_surface_node() - candidates.first_surface_node();
+  }
+
   const RingSpace& space;
+  const ContactBoundary candidates;
+  ContactBoundary boundary; ///< of the scene
   Work* work = nullptr;
-  unsigned int first_contact = 0;         ///< the place of the first contact node among candidates
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   SparseCholesky cholesky;
   dealii::LAPACKFullMatrix<double> factor; ///< L_cc

@@ -20,11 +20,13 @@ namespace rollwave {
  */
 class IterativeSolver : public ContactLinearSolver {
 public:
-  explicit IterativeSolver(const RingSpace& space)
-      : space(space), system(space), field(space.make_field()) {}
+  /// @param candidates the nodes of all zones that set_problem() will get
+  explicit IterativeSolver(const ContactBoundary& candidates)
+      : space(candidates.space()), boundary(candidates), system(space), field(space.make_field()) {}
 
   /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
-  void set_problem(const Scene& scene, const std::optional<FieldVector>& load, Work& work) override;
+  void set_problem(const Scene& scene, const ContactBoundary& boundary,
+                   const std::optional<FieldVector>& load, Work& work) override;
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
@@ -42,6 +44,7 @@ private:
   dealii::Vector<double> reactions(const FieldVector* f, const FieldVector& u) const;
 
   const RingSpace& space;
+  ContactBoundary boundary; ///< of the scene
   const std::optional<FieldVector>* load = nullptr;
   Work* work = nullptr;
   std::optional<double> angular_velocity; ///< of the matrix

@@ -29,11 +29,11 @@ struct Panel {
 /// The most curves that can be distinguished in one panel.
 constexpr unsigned int most_curves = 12;
 
-/// @p most of the numbers below @p n, evenly chosen, or all.
-std::vector<unsigned int> evenly(unsigned int n, unsigned int most);
+/// All numbers below @p n, or @p most of them at equal distances.
+std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most);
 
-/// Panels beside and below each other. They have the same curves, with one legend below them; of
-/// more curves than can be told apart, evenly chosen ones, which the title says.
+/// Panels in rows of two. They have the same curves, with one legend below them. Of more than
+/// most_curves curves it shows some at equal distances, and the title says so.
 Picture plot_panels(std::string title, std::vector<Panel> panels);
 
 /// Values over a grid of x and y as colours with contour lines, in lines of constant x.
