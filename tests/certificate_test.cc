@@ -361,6 +361,12 @@ TEST(Bounds, EncloseTheExactLoad) {
       EXPECT_GT(bounds.upper, exact->work_conjugate_load) << scene_key;
     }
   }
+  // On a convex road the energy need not be convex in the distance.
+  const Parameters drum = parameters_of({"Road/Curvature=1", "Certificate/Load bounds=true"});
+  const Result on_drum = simulate(make_scene(drum), drum).result;
+  EXPECT_FALSE(on_drum.load_bounds);
+  EXPECT_EQ(on_drum.remarks.size(), 1u);
+  EXPECT_TRUE(on_drum.shortfalls.empty());
   // Without contact there is no load.
   const Parameters free = parameters_of({"Road/Distance=1.5", "Certificate/Load bounds=true"});
   const Bounds none = *simulate(make_scene(free), free).result.load_bounds;

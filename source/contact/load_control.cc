@@ -46,7 +46,11 @@ struct Bracket {
 
   /// True if both ends are neighbouring numbers, between which the load changes by more than the
   /// tolerance.
-  bool is_exhausted() const { return is_near_tried && is_far_tried && far - near <= 4e-16 * near; }
+  bool is_exhausted() const { return is_narrow(4e-16); }
+
+  bool is_narrow(double tolerance) const {
+    return is_near_tried && is_far_tried && far - near <= tolerance * near;
+  }
 
   /// The distance to try next: that of Newton's method if it lies within the bracket. Otherwise an
   /// end that has not been tried, so that a load out of reach is found at once, or the middle.
@@ -143,7 +147,7 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
 RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps,
                            const Vector<double>& start) {
-  constexpr double tolerance = 1e-10;
+  constexpr double tolerance = 1e-10, tolerance_at_tangent = 1e-2;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
   const Bracket limits(scene);
@@ -164,6 +168,11 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
       refuse_load(scene, "farthest from", road.distance, road.load);
     bracket.narrow(road.distance, excess);
     if (bracket.is_exhausted())
+      return road;
+    // Nearer roads have contact up to the tangent too, so that no mesh like this one does better.
+    if (kind == LoadKind::work_conjugate && excess < 0 &&
+        (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent)) &&
+        reaches_tangent(problem, contact.active))
       return road;
     const double stiffness =
         stiffness_of_set(problem, contact, rate_of_approach(solver, problem, contact)).of(kind);

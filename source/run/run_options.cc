@@ -10,10 +10,6 @@ namespace {
 
 /// Refuses options that need the certificate where there is none.
 void check_certificate(const RunOptions& options) {
-  if (options.certificate.load_bounds && options.road.curvature > 0)
-    throw BadValue("Certificate", "Load bounds",
-                   "there are none on a convex road, Road/Curvature > 0, whose least energy need "
-                   "not be convex in the distance; set it to false");
   if (options.certificate.error_bound)
     return;
   if (options.certificate.load_bounds)

@@ -80,11 +80,14 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if the wanted error is reached, or a further mesh is not asked for or has no room.
-bool is_last(const RunOptions& options, const Discretisation& mesh,
+/// True if the wanted error is reached, or a further mesh is not asked for or has no room. A load
+/// that ten meshes do not resolve, next to the tangent of a drum, is not resolved by finer ones.
+bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
-  const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
+  const bool has_failed = options.certificate.error_bound && !certificate,
+             is_unresolved = !solution.shortfalls.empty() && n_meshes >= 10;
+  return has_failed || is_unresolved || n_meshes > most_cycles(options.mesh) ||
+         is_reached(options, certificate) ||
          !has_room_to_refine(*mesh.triangulation, options.mesh.marking, most_cells(options));
 }
 
@@ -101,7 +104,10 @@ PressureProfile pressure_of(const MeshSolution& solution) {
 void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
                   const CertifiedError& error, Work& work, Result& result) {
   const auto& load = solution.scene.load;
-  if (!load)
+  if (solution.scene.road.curvature > 0)
+    result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
+                             "least energy need not be convex in the distance");
+  else if (!load)
     result.load_bounds = bound_load(options, mesh.candidates, solution, error, mesh.cache, work);
   else if (load->kind == LoadKind::work_conjugate)
     result.distance_bounds =
@@ -160,7 +166,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     std::optional<Certificate> certificate = certify_solution(options, mesh, solution, work);
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
-    const bool ends = is_last(options, mesh, certificate, cycles.size());
+    const bool ends = is_last(options, mesh, solution, certificate, cycles.size());
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.shortfalls.push_back(interrupted_text(cycles.size()));

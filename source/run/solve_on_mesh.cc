@@ -100,9 +100,9 @@ void leave_out_unresolved(MeshSolution& solution) {
                              "work-conjugate load and the stiffness are not resolved: they are "
                              "left out");
   if (const auto& load = solution.scene.load; load && load->kind == LoadKind::work_conjugate)
-    solution.shortfalls.push_back("the work-conjugate load that was given is not resolved, since "
-                                  "contact reaches the tangent of the drum; raise Mesh/Angular "
-                                  "cells, or set Road/Load kind = vertical");
+    solution.shortfalls = {"the work-conjugate load that was given is not resolved, since contact "
+                           "reaches the tangent of the drum; raise Mesh/Angular cells, or set "
+                           "Road/Load kind = vertical"};
 }
 
 } // namespace
