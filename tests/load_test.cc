@@ -161,6 +161,22 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
 
   loaded.insert(loaded.end(), {"Road/Load=0.41", "Road/Load kind=work-conjugate"});
   EXPECT_FALSE(solve_for(loaded).result.shortfalls.empty());
+  // Refinement does not resolve it, and ends.
+  loaded.push_back("Mesh/Wanted relative error=1e-4");
+  const Result refined = solve_for(loaded).result;
+  EXPECT_EQ(refined.shortfalls.size(), 1u);
+  EXPECT_LT(refined.mesh.dofs, 50000u);
+  // A coarse mesh, whose load falls short at every distance, does not refuse what others carry.
+  EXPECT_NO_THROW(
+      solve_for({"Cylinder/Angular velocity=1", "Road/Curvature=10", "Road/Load=0.4",
+                 "Road/Load kind=work-conjugate", "Mesh/Radial cells=4", "Mesh/Angular cells=24"}));
+  // Farther from the tangent the load is resolved.
+  const Result resolved =
+      solve_for({"Road/Curvature=10", "Road/Load=0.2", "Road/Load kind=work-conjugate",
+                 "Mesh/Wanted relative error=1e-3"})
+          .result;
+  EXPECT_TRUE(resolved.shortfalls.empty());
+  EXPECT_NEAR(resolved.patch.work_conjugate_load / 0.2, 1, 1e-9);
 }
 
 TEST(Load, DistanceIsEnclosed) {

@@ -162,7 +162,9 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
     const double excess = road.load - wanted;
     if (std::abs(excess) <= tolerance * wanted)
       return road;
-    if (excess < 0 && road.distance == limits.near)
+    const bool is_resolved =
+        kind != LoadKind::work_conjugate || !reaches_tangent(problem, contact.active);
+    if (excess < 0 && road.distance == limits.near && is_resolved)
       refuse_load(scene, "nearest to", road.distance, road.load);
     if (excess > 0 && road.distance == limits.far)
       refuse_load(scene, "farthest from", road.distance, road.load);
@@ -170,9 +172,9 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
     if (bracket.is_exhausted())
       return road;
     // Nearer roads have contact up to the tangent too, so that no mesh like this one does better.
-    if (kind == LoadKind::work_conjugate && excess < 0 &&
-        (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent)) &&
-        reaches_tangent(problem, contact.active))
+    if (!is_resolved && excess < 0 &&
+        (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent) ||
+         road.distance == limits.near))
       return road;
     const double stiffness =
         stiffness_of_set(problem, contact, rate_of_approach(solver, problem, contact)).of(kind);
@@ -200,7 +202,8 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load) {
   return text.str();
 }
 
-bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
+bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active,
+                     double within) {
   const unsigned int n = problem.size();
   const double tangent = problem.shape.tangent_angle();
   const auto first = std::find(active.begin(), active.end(), true);
@@ -217,7 +220,8 @@ bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& act
                beyond_right = right + 1 < n ? x[right + 1]
                               : n > 1       ? 2 * x[n - 1] - x[n - 2]
                                             : x[0];
-  return beyond_left <= -tangent || beyond_right >= tangent;
+  return (beyond_left <= -tangent && x[left] <= (within - 1) * tangent) ||
+         (beyond_right >= tangent && x[right] >= (1 - within) * tangent);
 }
 
 } // namespace rollwave

@@ -4,6 +4,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
+#include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
 #include "rollwave/run/load_bounds.h"
@@ -80,13 +81,19 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if the wanted error is reached, or a further mesh is not asked for or has no room. A load
-/// that ten meshes do not resolve, next to the tangent of a drum, is not resolved by finer ones.
+/// True if a work-conjugate load is given that finer meshes will not resolve either.
+bool is_load_beyond_meshes(const MeshSolution& solution) {
+  constexpr double within = 1e-3; // of the drum's tangent
+  const auto& load = solution.scene.load;
+  return load && load->kind == LoadKind::work_conjugate &&
+         reaches_tangent(solution.problem, solution.contact.active, within);
+}
+
+/// True if the wanted error is reached, or a further mesh is not asked for or has no room.
 bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
-  const bool has_failed = options.certificate.error_bound && !certificate,
-             is_unresolved = !solution.shortfalls.empty() && n_meshes >= 10;
-  return has_failed || is_unresolved || n_meshes > most_cycles(options.mesh) ||
+  const bool has_failed = options.certificate.error_bound && !certificate;
+  return has_failed || is_load_beyond_meshes(solution) || n_meshes > most_cycles(options.mesh) ||
          is_reached(options, certificate) ||
          !has_room_to_refine(*mesh.triangulation, options.mesh.marking, most_cells(options));
 }
@@ -121,7 +128,8 @@ void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSol
 void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
            const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
-  if (wants_error && certificate && !is_reached(options, certificate))
+  if (wants_error && certificate && !is_reached(options, certificate) &&
+      !is_load_beyond_meshes(solution))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
