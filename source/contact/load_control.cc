@@ -202,8 +202,7 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load) {
   return text.str();
 }
 
-bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active,
-                     double within) {
+bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
   const unsigned int n = problem.size();
   const double tangent = problem.shape.tangent_angle();
   const auto first = std::find(active.begin(), active.end(), true);
@@ -220,8 +219,7 @@ bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& act
                beyond_right = right + 1 < n ? x[right + 1]
                               : n > 1       ? 2 * x[n - 1] - x[n - 2]
                                             : x[0];
-  return (beyond_left <= -tangent && x[left] <= (within - 1) * tangent) ||
-         (beyond_right >= tangent && x[right] >= (1 - within) * tangent);
+  return beyond_left <= -tangent || beyond_right >= tangent;
 }
 
 } // namespace rollwave

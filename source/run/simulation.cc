@@ -81,20 +81,21 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if a work-conjugate load is given that finer meshes will not resolve either.
-bool is_load_beyond_meshes(const MeshSolution& solution) {
-  constexpr double within = 1e-3; // of the drum's tangent
+/// True if a work-conjugate load is given that @p n_meshes do not resolve: finer ones do not
+/// either.
+bool is_load_beyond_meshes(const MeshSolution& solution, unsigned int n_meshes) {
+  constexpr unsigned int enough = 60;
   const auto& load = solution.scene.load;
-  return load && load->kind == LoadKind::work_conjugate &&
-         reaches_tangent(solution.problem, solution.contact.active, within);
+  return load && load->kind == LoadKind::work_conjugate && n_meshes >= enough &&
+         reaches_tangent(solution.problem, solution.contact.active);
 }
 
 /// True if the wanted error is reached, or a further mesh is not asked for or has no room.
 bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || is_load_beyond_meshes(solution) || n_meshes > most_cycles(options.mesh) ||
-         is_reached(options, certificate) ||
+  return has_failed || is_load_beyond_meshes(solution, n_meshes) ||
+         n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
          !has_room_to_refine(*mesh.triangulation, options.mesh.marking, most_cells(options));
 }
 
@@ -129,7 +130,7 @@ void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolu
            const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
   if (wants_error && certificate && !is_reached(options, certificate) &&
-      !is_load_beyond_meshes(solution))
+      !is_load_beyond_meshes(solution, result.cycles.size()))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&

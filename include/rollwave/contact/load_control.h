@@ -27,9 +27,7 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
 /// True if contact on a drum ends next to its tangent, with no free node before it. dphi/dc grows
 /// there like d^(-1/2) with the distance d from the tangent, so that the nodes resolve neither the
 /// work-conjugate load nor the stiffness.
-/// @param within how near to the tangent contact comes at least, a part of its angle
-bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active,
-                     double within = 1);
+bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active);
 
 /// A distance with the load and the nodal pressures there.
 struct RoadPosition {
