@@ -26,7 +26,8 @@ using namespace dealii;
 
 namespace {
 
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+/// Leaves a gap in a curve.
+constexpr double missing_point = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers that a key takes in all runs, without entries where one of its values is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
@@ -77,9 +78,9 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The keys before them change together with the text.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(not_known));
+    curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
     if (!marks.empty() && study.has(marks))
-      curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(not_known));
+      curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
   }
   return curves;
 }
@@ -152,7 +153,7 @@ std::optional<Picture> map_of_load(const Study& study) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
     lines.back().push_back(
-        {{x[run], y[run], study.value(run, "contact.vertical_load").value_or(not_known)}});
+        {{x[run], y[run], study.value(run, "contact.vertical_load").value_or(missing_point)}});
   }
   const Units units = study.units();
   return plot_map(title_of(study), words(varied[0], units),
