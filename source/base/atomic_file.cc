@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <random>
+#include <sstream>
 
 namespace rollwave {
 
@@ -56,6 +57,12 @@ unsigned long AtomicFile::commit() {
   if (error)
     fail(path, error.value());
   return size;
+}
+
+std::string read_file(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
 }
 
 unsigned long write_file(const fs::path& path, const std::string& content) {

@@ -27,8 +27,8 @@ using Cell = DoFHandler<2>::active_cell_iterator;
 /// Lines z = const through each cell on which G is compared with G_h.
 constexpr unsigned int n_lines = 32;
 
-/// Into how many parts rules along r cut the intervals between the ends of cells, and the finer
-/// rules each interval again.
+/// The number of parts into which rules along r cut the intervals between the ends of cells. The
+/// finer rules cut each interval once more.
 constexpr unsigned int n_parts = 4;
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().

@@ -6,8 +6,6 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 namespace rollwave {
 
@@ -36,9 +34,7 @@ bool run(const std::string& command, std::string& messages) {
 
 /// False for a picture that was cut short, as on a full disk, which gnuplot does not report.
 bool is_complete(const fs::path& svg) {
-  std::ostringstream text;
-  text << std::ifstream(svg).rdbuf();
-  return text.str().find("</svg>") != std::string::npos;
+  return read_file(svg).find("</svg>") != std::string::npos;
 }
 
 } // namespace

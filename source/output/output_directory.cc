@@ -6,7 +6,6 @@
 #include "rollwave/base/version.h"
 
 #include <cerrno>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <optional>
@@ -55,12 +54,6 @@ std::string complete_parameters(const Parameters& parameters) {
   return text.str();
 }
 
-std::string read(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
 /// True if @p path is the parameter file that was read.
 bool is_input(const Parameters& parameters, const fs::path& path) {
   std::error_code ignored; // where one of them is not there, they differ
@@ -89,7 +82,7 @@ std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameter
                                                      bool is_alone) {
   const fs::path directory = parameters.output.directory;
   std::vector<std::string> removed;
-  if (read(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
+  if (read_file(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
       (is_study && is_of_same_run(parameters))) // which goes on
     return removed;
   remove_files(
@@ -128,7 +121,7 @@ void write_parameters(const fs::path& directory, const Parameters& parameters,
 }
 
 bool is_of_same_run(const Parameters& parameters) {
-  return read(fs::path(parameters.output.directory) / "parameters.prm") ==
+  return read_file(fs::path(parameters.output.directory) / "parameters.prm") ==
          complete_parameters(parameters);
 }
 

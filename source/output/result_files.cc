@@ -74,11 +74,11 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
   }
 }
 
-/// summary.json with what has been done so far; all processes must ask.
-std::string summary_of(const Parameters& parameters, const Solution& solution) {
-  Result result = solution.result;
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), solution.space().communicator());
-  return summary_json(solution.scene, parameters, result);
+/// summary.json with the work and the memory so far. Called on all processes.
+std::string summary_of(const Parameters& parameters, Solution& solution) {
+  solution.result.peak_memory_mib =
+      Utilities::MPI::max(peak_memory_mib(), solution.space().communicator());
+  return summary_json(solution.scene, parameters, solution.result);
 }
 
 } // namespace
@@ -122,7 +122,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
 }
 
 void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
-                   const Solution& solution) {
+                   Solution& solution) {
   const std::string summary = summary_of(parameters, solution);
   const std::filesystem::path file = directory / "summary.json";
   if (parameters.wants(OutputFile::summary) && process_number(solution.space().communicator()) == 0)

@@ -28,7 +28,7 @@ void print_table(std::ostream& out, const TableHandler& table) {
   out << text.str();
 }
 
-/// Of a longer history only the begin and the end are shown.
+/// A longer history is printed without its middle.
 constexpr unsigned int most_lines = 40;
 
 void report_history(std::ostream& out, const std::vector<ContactStep>& history,

@@ -119,7 +119,8 @@ void declare_mesh(Keys& keys, Parameters& p) {
   keys.add_choice<Indicator>(
       "Indicator", p.mesh.indicator,
       {{"certificate", Indicator::certificate}, {"kelly", Indicator::kelly}},
-      "What tells where to refine. \"certificate\": each cell's share of the error bound. "
+      "The indicator of the cells to refine. \"certificate\": each cell's share of the error "
+      "bound. "
       "\"kelly\": jumps of the normal derivative, which are also taken where "
       "Certificate/Error bound is false.");
   keys.add_choice<Marking>(

@@ -18,10 +18,8 @@ Bounds certified_energy(const RunOptions& options, const ContactBoundary& candid
                         Work& work) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
-  const PressureProfile start(solution.boundary.contact_nodes(),
-                              solution.problem.pressures(solution.contact.state.force),
-                              solution.resultants.ends);
-  const MeshSolution there = solve_on_mesh(moved, options, candidates, start, cache, work);
+  const MeshSolution there =
+      solve_on_mesh(moved, options, candidates, pressure_profile(solution), cache, work);
   const CertifiedError error =
       certify(there.boundary, moved, there.problem, there.contact, there.displacement,
               cache.force.get(), cache.dual_of(moved, candidates.space(), work), work)

@@ -57,7 +57,7 @@ Quantities load_quantities() {
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.patch.force; }},
-      {"contact.work_conjugate_load", "work-conjugate load -dJ/dc", "G", Quantity::force,
+      {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force,
        Shown::screen | Shown::curve, all_digits,
        [](const Result& r) { return r.patch.work_conjugate_load; }},
       {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
@@ -68,7 +68,7 @@ Quantities load_quantities() {
        all_digits, of(&Result::distance_bounds, &Bounds::lower)},
       {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
        all_digits, of(&Result::distance_bounds, &Bounds::upper)},
-      {"contact.stiffness.vertical_load", "vertical stiffness -d(load)/dc", "", Quantity::stiffness,
+      {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
        Shown::screen | Shown::curve, 4, [](const Result& r) { return r.patch.stiffness.vertical; }},
       {"contact.stiffness.force", "stiffness -dF/dc", "", Quantity::stiffness, 0, 4,
        [](const Result& r) { return r.patch.stiffness.total; }},
@@ -82,8 +82,7 @@ Quantities contact_quantities() {
       {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
        Shown::screen | Shown::curve, all_digits,
        [](const Result& r) { return r.patch.peak_pressure; }},
-      {"contact.half_width", "half-width of a single patch", "", Quantity::angle, Shown::curve,
-       all_digits,
+      {"contact.half_width", "half-width of contact", "", Quantity::angle, Shown::curve, all_digits,
        [](const Result& r) {
          return r.patch.patches.size() < 2 ? r.patch.half_width() : not_known;
        }},

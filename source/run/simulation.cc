@@ -103,11 +103,6 @@ std::string interrupted_text(unsigned int n_meshes) {
   return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
 }
 
-PressureProfile pressure_of(const MeshSolution& solution) {
-  return {solution.boundary.contact_nodes(),
-          solution.problem.pressures(solution.contact.state.force), solution.resultants.ends};
-}
-
 /// Bounds the work-conjugate load or, where that is given, the distance.
 void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
                   const CertifiedError& error, Work& work, Result& result) {
@@ -181,7 +176,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
       solution.shortfalls.push_back(interrupted_text(cycles.size()));
     if (!ends && !is_stopped) {
       scene = solution.scene;
-      pressure = pressure_of(solution);
+      pressure = pressure_profile(solution);
       const auto indicators = indicate(options, mesh, solution, certificate, work);
       cycles.back().indicated = total(indicators, mesh.communicator());
       if (mesh.refine(indicators, scene, options, work)) {
@@ -221,7 +216,7 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
     Discretisation mesh(scene, coarse, communicator, work);
     const MeshSolution solution =
         solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, work);
-    return {solution.scene, pressure_of(solution)};
+    return {solution.scene, pressure_profile(solution)};
   } catch (const Interrupted&) {
     throw;
   } catch (const BadInput&) {

@@ -137,6 +137,11 @@ double PressureProfile::at(double angle) const {
   return (1 - t) * before->second + t * next->second;
 }
 
+PressureProfile pressure_profile(const MeshSolution& solution) {
+  return {solution.boundary.contact_nodes(),
+          solution.problem.pressures(solution.contact.state.force), solution.resultants.ends};
+}
+
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
                            MeshCache& cache, Work& work) {

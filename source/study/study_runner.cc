@@ -13,9 +13,7 @@
 #include <deal.II/base/timer.h>
 
 #include <algorithm>
-#include <fstream>
 #include <ostream>
-#include <sstream>
 
 namespace rollwave {
 
@@ -23,17 +21,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_of(const fs::path& directory, const std::string& name) {
-  std::ostringstream text;
-  text << std::ifstream(directory / name).rdbuf();
-  return text.str();
-}
-
 /// Takes over the runs that an earlier call has solved. Returns their number.
 unsigned int take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
   const bool goes_on = process_number(communicator) == 0 && is_of_same_run(parameters);
   const auto read = [&](const char* name) {
-    return broadcast(communicator, goes_on ? text_of(parameters.output.directory, name) : "");
+    const fs::path file = fs::path(parameters.output.directory) / name;
+    return broadcast(communicator, goes_on ? read_file(file) : "");
   };
   read_csv(read("study.csv"), study);
   read_profiles(read("study-profiles.csv"), study);
@@ -90,7 +83,6 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   Study study;
   study.plans = plan_runs(parameters, count_processes(communicator));
   study.runs.resize(study.plans.size());
-  study.has_true_errors = parameters.study.true_errors;
   unsigned int place = 0;
   for (const Variation& variation : parameters.study.vary) {
     study.first_keys.push_back(place);

@@ -35,6 +35,9 @@ private:
   std::ofstream out;
 };
 
+/// The text of a file; empty where it cannot be read.
+std::string read_file(const std::filesystem::path& path);
+
 /// Writes a file and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
 

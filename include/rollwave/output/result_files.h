@@ -15,7 +15,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
 /// Writes summary.json, if @p parameters ask for it, again where a result has been completed.
 /// @throws NotWritten.
 void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
-                   const Solution& solution);
+                   Solution& solution);
 
 } // namespace rollwave
 

@@ -14,8 +14,8 @@
 
 namespace rollwave {
 
-/// The contact pressure on one mesh as a function of the angle: linear between nodes, zero outside
-/// of contact. The contact iteration on another mesh starts from it.
+/// The contact pressure on one mesh as a function of the angle, from which the contact iteration on
+/// another mesh starts: linear between nodes, and zero where there is no contact.
 class PressureProfile {
 public:
   /// Without a mesh before: the iteration starts without contact.
@@ -49,6 +49,9 @@ struct MeshSolution {
   std::vector<std::string> shortfalls = {}; ///< targets that were not reached, with the keys to
                                             ///< change
 };
+
+/// The contact pressure of a solution.
+PressureProfile pressure_profile(const MeshSolution& solution);
 
 /// Solves @p scene by the methods of @p options, beginning with the contact pressures @p start.
 /// @param candidates the contact nodes of all scenes on the space

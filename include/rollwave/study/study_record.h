@@ -32,7 +32,6 @@ struct StudyRun {
 struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
-  bool has_true_errors = false; ///< true if they were asked for
 
   /// The places in RunPlan::varied at which the keys of each part of Study/Vary begin; those of a
   /// part move together.

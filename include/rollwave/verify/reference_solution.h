@@ -10,8 +10,8 @@
 namespace rollwave {
 
 /// The exact solution of a scene; nullopt where there is none: a force that is not constant, a zone
-/// that cuts the contact short on one side or unevenly, or a series that does not converge. Which
-/// of these it is, is written to @p why_none.
+/// that cuts the contact short on one side or unevenly, or a series that does not converge. The
+/// reason is written to @p why_none.
 std::optional<ExactSolution> find_exact_solution(const Scene& scene,
                                                  std::string* why_none = nullptr);
 
