@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The documents keep their promises: links and named files exist, commands of README and manual run,
-tables are those of doc/results, and doc/parameters.md and doc/quantities.md are what the program prints.
+"""The documents keep their promises: links and named files exist, commands run and print what the
+documents quote, options of all commands are accepted, tables are those of doc/results, and
+doc/parameters.md and doc/quantities.md are what the program prints.
 
 Usage: documents_test.py ROOT ROLLWAVE [--write]      (--write renews these two)
 """
@@ -64,15 +65,64 @@ for page in (readme, *own):
         require(results.exists() and table in results.read_text(),
                 f'{page.name}: its table is not that of {results.name}; renew it by tests/measure.py')
 
-with tempfile.TemporaryDirectory() as place:
-    (pathlib.Path(place) / 'prm').symlink_to(root / 'prm')
-    for page in (readme, doc / 'manual.md'):
-        for block in re.findall(r'```sh\n(.*?)```', page.read_text(), re.S):
+for picture in (doc / 'pictures').iterdir():
+    require(f'(pictures/{picture.name})' in (doc / 'gallery.md').read_text(),
+            f'gallery.md does not show {picture.name}')
+
+
+def call(command, place):
+    return subprocess.run(command.replace('build/rollwave', shlex.quote(rollwave), 1), shell=True,
+                          cwd=place, capture_output=True, text=True)
+
+
+def shape(line):
+    """The words of a line: a number is as good as another, and so is the width of a gap. Ends at
+    "...", which stands for the rest, and before an explanation behind #."""
+    words = re.sub(r'[+-]?\b\d[\d.]*(e[+-]?\d+)?\b', '0', re.split(r'\.\.\.|\s#\s', line)[0])
+    return ' '.join(words.split())
+
+
+def quoted_lines_missing(quoted, printed):
+    """The lines of a quoted screen that no line of the printed one begins with."""
+    shapes = [shape(line) for line in printed.splitlines()]
+    return [line for line in quoted.splitlines()
+            if not any(printed_line.startswith(shape(line)) for printed_line in shapes)]
+
+
+def try_page(page, place):
+    """Does what a reader does: keeps the parameter files, runs the commands, compares the screen."""
+    screen = ''
+    for kind, block in re.findall(r'^```(\w*)\n(.*?)^```$', page.read_text(), re.S | re.M):
+        if kind == 'prm':  # its first line names the file, which the block is appended to
+            with open(place / re.match(r'# ([\w-]+\.prm)', block)[1], 'a') as file:
+                file.write(block)
+        elif kind == 'python':
+            run = subprocess.run([sys.executable, '-c', block], cwd=place, capture_output=True)
+            require(run.returncode == 0, f'{page.name}: this fails:\n{block}')
+        elif kind == 'text':
+            for line in quoted_lines_missing(block, screen):
+                require(False, f'{page.name}: the program does not print: {line}')
+        elif kind == 'sh':
             for line in block.replace('\\\n', ' ').splitlines():
-                if line.startswith('build/rollwave'):
-                    command = shlex.quote(rollwave) + line.removeprefix('build/rollwave')
-                    run = subprocess.run(command, shell=True, cwd=place, capture_output=True)
+                if line.startswith(('build/rollwave', 'touch')):
+                    run = call(line, place)
+                    screen = run.stdout
                     require(run.returncode == 0, f'{page.name}: this fails: {line}')
+
+
+tried = (readme, doc / 'manual.md', doc / 'cookbook/tutorial.md')
+with tempfile.TemporaryDirectory() as directory:
+    place = pathlib.Path(directory)
+    (place / 'prm').symlink_to(root / 'prm')
+    for page in tried:
+        try_page(page, place)
+    for page in {*own, *cookbook} - set(tried):  # studies may take minutes: their options only
+        for command in re.findall(r'build/rollwave [^`\n]*\.prm(?: [^`\n]*)?',
+                                  page.read_text().replace('\\\n', ' ')):
+            if 'FILE' not in command and 'scene.prm' not in command:
+                run = call(command.replace('--verify ', '') + ' --parameters', place)
+                require(run.returncode == 0, f'{page.name}: {command}: {run.stderr}')
+
 
 def require_printed(page, title, option, fence):
     printed = subprocess.run([rollwave, option], capture_output=True, text=True, check=True).stdout
