@@ -47,7 +47,8 @@ for page in (readme, *own, *cookbook):
         require((root / file).exists(), f'{page.name}: {file} is not there')
 
 for page in (doc / 'theory.md', doc / 'architecture.md', doc / 'contributing.md'):
-    for name in set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text())) - {'module/file', 'doc/results', 'doc/pictures'}:
+    names = set(re.findall(r'`([a-z_]+/[a-z_]+)`', page.read_text()))
+    for name in names - {'module/file', 'doc/results', 'doc/pictures'}:
         require((root / f'include/rollwave/{name}.h').exists(), f'{page.name}: {name} is not there')
 
 require(len(readme.read_text().splitlines()) <= 110, 'README.md has more than 110 lines')
@@ -90,7 +91,7 @@ def quoted_lines_missing(quoted, printed):
 
 
 def try_page(page, place):
-    """Does what a reader does: keeps the parameter files, runs the commands, compares the screen."""
+    """Does as a reader: keeps the parameter files, runs the commands, compares the screen."""
     screen = ''
     for kind, block in re.findall(r'^```(\w*)\n(.*?)^```$', page.read_text(), re.S | re.M):
         if kind == 'prm':  # its first line names the file, which the block is appended to
