@@ -5,16 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 namespace rollwave {
 
@@ -53,27 +47,6 @@ void require_memory(double bytes, const std::string& purpose, MPI_Comm communica
   const std::string first_lack = first_text(communicator, lack.str());
   if (!first_lack.empty())
     throw NotEnoughMemory(first_lack);
-}
-
-bool fit_blas_into_address_space(char** argv) {
-  rlimit limit;
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    return true;
-  if (!std::getenv("OPENBLAS_NUM_THREADS") && !std::getenv("OMP_NUM_THREADS")) {
-    // OpenBLAS has read its variables before main() begins.
-    setenv("OPENBLAS_NUM_THREADS", "1", 0);
-    setenv("OMP_NUM_THREADS", "1", 0);
-    execv("/proc/self/exe", argv); // which returns only if it fails
-  }
-  constexpr std::size_t buffer = 160 << 20; // with the rest of a first call
-  void* const room =
-      mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED)
-    return false;
-  munmap(room, buffer);
-  dealii::LAPACKFullMatrix<double> one(1), square(1);
-  one.Tmmult(square, one);
-  return true;
 }
 
 double peak_memory_mib() {

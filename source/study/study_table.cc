@@ -12,11 +12,18 @@
 #include <functional>
 #include <map>
 #include <ostream>
+#include <regex>
 #include <sstream>
 
 namespace rollwave {
 
 namespace {
+
+/// @p text with the characters escaped that have a meaning in TeX.
+std::string in_tex(const std::string& text) {
+  const std::string escaped = std::regex_replace(text, std::regex("[&%$#_{}]"), "\\$&");
+  return std::regex_replace(escaped, std::regex("[~^]"), "\\$&{}");
+}
 
 std::string outcome_of(const StudyRun& run) {
   return run.failure.empty() ? "solved" : run.is_solved() ? "target not reached" : "not solved";
