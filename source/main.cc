@@ -10,27 +10,14 @@
 #include <deal.II/base/mpi.h>
 
 #include <cstdlib>
-#include <fcntl.h>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <sstream>
-#include <unistd.h>
-#include <utility>
 
 using namespace rollwave;
 
 namespace {
-
-/// Opens /dev/null on closed descriptors 0 to 2, so that no result file gets one of them. Reading
-/// from it or writing to it fails, as with a closed descriptor.
-void open_standard_streams() {
-  for (const auto& [stream, mode] :
-       {std::pair(STDIN_FILENO, O_WRONLY), std::pair(STDOUT_FILENO, O_RDONLY),
-        std::pair(STDERR_FILENO, O_RDONLY)})
-    if (fcntl(stream, F_GETFD) < 0)
-      open("/dev/null", mode);
-}
 
 /// True if a launcher has started several processes, by the variables of Open MPI, MPICH and PMIx.
 bool is_launched_by_mpi() {
@@ -67,7 +54,6 @@ void act(const std::vector<std::string>& arguments, MPI_Comm communicator, std::
 } // namespace
 
 int main(int argc, char* argv[]) {
-  open_standard_streams();
   const bool has_memory = fit_blas_into_address_space(argv);
   install_signal_handlers();
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;

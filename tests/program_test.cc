@@ -128,7 +128,6 @@ TEST_F(Program, NeverWritesOverTheFileItReads) {
   for (const fs::path& name : {input, link}) {
     const Outcome outcome = shell("$rollwave '" + name.string() + "' --set Road/Distance=0.9");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    EXPECT_NE(outcome.text.find("parameters.prm is the file that was read"), std::string::npos);
     EXPECT_EQ(read("parameters.prm"), before);
   }
   EXPECT_EQ(
@@ -157,8 +156,8 @@ TEST_F(Program, WritesTheOtherFilesWhereTheFieldHasNoPlace) {
 
 TEST_F(Program, OverridesTheFile) {
   const fs::path other = directory / "other";
-  ASSERT_EQ(shell("$rollwave " + scene + " --output='" + other.string() +
-                  "' --set 'Mesh/Degree = 1' --set='Road/Distance=0.9'")
+  ASSERT_EQ(shell("$rollwave " + scene + " --output '" + other.string() +
+                  "' --set 'Mesh/Degree = 1' --set 'Road/Distance=0.9'")
                 .exit_code,
             0);
   EXPECT_FALSE(has("summary.json"));
@@ -281,11 +280,6 @@ TEST_F(Program, StudiesScenesThatAreNotThatOfTheFile) {
       << series;
 }
 
-TEST_F(Program, SaysThatTrueErrorsAreForStudies) {
-  const Outcome outcome = shell("$rollwave " + scene + " --set 'Study/True errors=true'");
-  EXPECT_NE(outcome.text.find("Study/True errors does nothing"), std::string::npos) << outcome.text;
-}
-
 TEST_F(Program, GoesOnWithAStudyThatWasStopped) {
   const std::string study = "$rollwave " + scene +
                             " --set 'Study/Vary=Road/Contact zone = auto | "
@@ -322,14 +316,10 @@ TEST_F(Program, VerifiesAScene) {
             json["error"]["exact_feasible_energy_norm"].get<double>());
   const Outcome unknown = shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=r'");
   EXPECT_EQ(unknown.exit_code, 0) << unknown.text;
-  for (const std::string& text : {unknown.text, read("summary.json")})
-    EXPECT_NE(text.find("no exact solution is known for this scene: Cylinder/Radial force is not "
-                        "constant"),
-              std::string::npos)
-        << text;
-  const Outcome constant =
-      shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=1/2'");
-  EXPECT_NE(constant.text.find("Verification against"), std::string::npos) << constant.text;
+  EXPECT_FALSE(nlohmann::json::parse(read("summary.json"))["error"].contains("exact_relative"));
+  ASSERT_EQ(shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=1/2'").exit_code,
+            0);
+  EXPECT_TRUE(nlohmann::json::parse(read("summary.json"))["error"].contains("exact_relative"));
 }
 
 TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
@@ -350,7 +340,6 @@ TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
   // What cannot be reached is told, and what was reached is kept.
   const Outcome limited = shell(wanted + " --set 'Mesh/Adaptive cycles=1'");
   EXPECT_EQ(limited.exit_code, 2) << limited.text;
-  EXPECT_NE(limited.text.find("wanted 0.003"), std::string::npos) << limited.text;
   json = nlohmann::json::parse(read("summary.json"));
   EXPECT_EQ(json["cycles"].size(), 2u);
   const Outcome refused = shell(wanted + " --set 'Certificate/Error bound=false'");

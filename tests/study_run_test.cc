@@ -4,7 +4,6 @@
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_runner.h"
-#include "rollwave/study/study_table.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>
@@ -218,17 +217,6 @@ TEST(Orders, AreThoseOfTheErrors) {
   // From mesh to mesh, by the library.
   EXPECT_EQ(count(orders("Mesh/Global refinements = 0 | 1 | 2"), "1.50"), 2u);
   EXPECT_EQ(orders("Mesh/Degree = 1 | 2 | 3 | 4", "Mesh/Radial cells=4", by_degree), "");
-}
-
-TEST(StudyTable, HasEachRemarkOnce) {
-  Study study = planned({"Study/Vary=Mesh/Degree = 1 | 2"});
-  for (auto& run : study.runs) {
-    run = some_run();
-    run->remarks = {"a remark with the number 0." + std::to_string(&run - &study.runs[0])};
-  }
-  std::ostringstream text;
-  print_study_notes(text, study);
-  EXPECT_EQ(count(text.str(), "a remark"), 1u);
 }
 
 } // namespace

@@ -18,16 +18,6 @@ namespace {
                    (error ? std::string(": ") + std::strerror(error) : std::string()));
 }
 
-/// Closes a stream. Returns 0, or the number of the error that has befallen it.
-int close_stream(std::ofstream& out) {
-  errno = 0;
-  const bool has_failed = !out;
-  if (has_failed)
-    out.rdbuf()->sputc('\n'); // fails again, which sets the number
-  out.close();
-  return has_failed || !out ? (errno ? errno : EIO) : 0;
-}
-
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path(path), temporary(path) {
@@ -48,8 +38,9 @@ AtomicFile::~AtomicFile() {
 }
 
 unsigned long AtomicFile::commit() {
-  if (const int error = close_stream(out))
-    fail(path, error);
+  out.close();
+  if (!out)
+    fail(path, errno);
   std::error_code error;
   const auto size = fs::file_size(temporary, error);
   if (!error)
@@ -72,17 +63,12 @@ unsigned long write_file(const fs::path& path, const std::string& content) {
 }
 
 void append_to_file(const fs::path& path, const std::string& text) {
-  std::error_code ignored;
-  const auto size = fs::file_size(path, ignored);
   errno = 0;
   std::ofstream out(path, std::ios::binary | std::ios::app);
+  out << text;
+  out.close();
   if (!out)
     fail(path, errno);
-  out << text;
-  if (const int error = close_stream(out)) {
-    fs::resize_file(path, size, ignored);
-    fail(path, error);
-  }
 }
 
 } // namespace rollwave

@@ -14,19 +14,9 @@
 namespace rollwave {
 
 std::string printable(const std::string& text, std::size_t longest) {
-  const char* const digits = "0123456789ABCDEF";
-  std::string shown;
-  bool is_plain = true;
-  for (std::size_t i = 0; i < std::min(text.size(), longest); ++i) {
-    const unsigned char c = text[i], before = i > 0 ? text[i - 1] : ' ';
-    if (c < 0x80)
-      is_plain = !std::iscntrl(c);
-    else if (c >= 0xC0) // of punctuation some looks like a blank or a minus sign
-      is_plain = c != 0xC2 && c != 0xE2 && c != 0xEF;
-    else // goes with the first byte of its letter
-      is_plain = is_plain && before >= 0x80;
-    shown += is_plain ? std::string(1, c) : std::string("\\x") + digits[c / 16] + digits[c % 16];
-  }
+  std::string shown = text.substr(0, longest);
+  std::replace_if(
+      shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c); }, '?');
   return shown + (text.size() > longest ? "..." : "");
 }
 
@@ -68,22 +58,6 @@ std::string rounded(double number, int digits) {
 std::string shortest_text(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof(text), number).ptr};
-}
-
-std::string in_tex(const std::string& text) {
-  std::string tex;
-  for (const char c : text)
-    if (c == '\\')
-      tex += "\\textbackslash{}";
-    else if (std::string("&%$#_{}").find(c) != std::string::npos)
-      tex += std::string("\\") + c;
-    else if (c == '^' || c == '~')
-      tex += std::string("\\") + c + "{}";
-    else if (c == '<' || c == '>' || c == '|')
-      tex += std::string("$") + c + '$';
-    else
-      tex += c;
-  return tex;
 }
 
 } // namespace rollwave

@@ -26,16 +26,8 @@ Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 )";
 }
 
-CommandLine read_command_line(const std::vector<std::string>& given) {
+CommandLine read_command_line(const std::vector<std::string>& arguments) {
   CommandLine line;
-  std::vector<std::string> arguments;
-  for (const std::string& argument : given) {
-    const bool is_joined = argument.rfind("--output=", 0) == 0 || argument.rfind("--set=", 0) == 0;
-    const std::size_t equals = argument.find('=');
-    arguments.push_back(is_joined ? argument.substr(0, equals) : argument);
-    if (is_joined)
-      arguments.push_back(argument.substr(equals + 1));
-  }
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
     const auto option_value = [&]() {
       const std::string option = *argument;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -32,37 +31,9 @@ unsigned int edit_distance(const std::string& from, const std::string& to) {
   return row.back();
 }
 
-/// The lines "subsection SECTION" and "set KEY = VALUE" of a parameter file, whose places deal.II
-/// does not give completely; the former without a key. @throws BadInput for "include FILE"
-std::vector<Setting> places_of(const std::string& text, const std::string& file) {
-  std::vector<Setting> places;
-  std::istringstream lines(text);
-  std::string line, section;
-  for (unsigned int i = 1; std::getline(lines, line); ++i) {
-    const std::string origin = file + ", line " + std::to_string(i);
-    line = trimmed(line.substr(0, line.find('#')));
-    const auto end = std::min(line.find_first_of(" \t"), line.size());
-    const auto equals = std::min(line.find('=', end), line.size());
-    const std::string keyword = line.substr(0, end), name = trimmed(line.substr(end, equals - end));
-    if (keyword == "include" || keyword == "INCLUDE")
-      throw BadInput(origin + ": a parameter file cannot include others");
-    if (keyword == "subsection")
-      places.push_back({section = name, "", "", origin});
-    else if (keyword == "set" && equals < line.size())
-      places.push_back({section, name, trimmed(line.substr(equals + 1)), origin});
-    else if (keyword == "end")
-      section.clear();
-  }
-  return places;
-}
-
 std::string refusal_of(const Setting& setting, const std::string& reason) {
   return setting.origin + ": section " + in_quotes(setting.section) + ", key " +
          in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
-}
-
-std::string refusal_of(const Setting& setting, const Key& key) {
-  return refusal_of(setting, "invalid. Expected: " + key.text);
 }
 
 } // namespace
@@ -94,27 +65,27 @@ void Keys::enter(const std::string& name, unsigned int affects) {
   affected = affects;
 }
 
-void Keys::declare(const std::string& name, const std::string& default_value,
-                   const Patterns::PatternBase& pattern, const std::string& text,
-                   const KeyAttributes& attributes, const Parse& parse) {
+void Keys::declare(const std::string& name, const std::string& default_value, const Parse& parse,
+                   const std::string& text, const KeyAttributes& attributes) {
   keys.push_back({attributes, section, name, default_value, text});
   keys.back().affects |= affected;
   prm.enter_subsection(section);
-  prm.declare_entry(name, default_value, pattern, text);
-  prm.add_action(name, [this, key = keys.back(), parse](const std::string& value) {
-    if (!origin.empty())
-      settings.push_back({key.section, key.name, value, origin});
+  prm.declare_entry(name, default_value, Patterns::Anything(), text);
+  prm.add_action(name, [this, section = section, name, text, parse](const std::string& value) {
+    const Setting setting{section, name, value, origin ? origin() : ""};
     try {
-      parse(value);
+      parse(setting);
     } catch (const BadInput& error) {
       const std::string reason = error.what();
-      throw BadValue(key.section, key.name,
-                     reason.empty() ? "invalid. Expected: " + key.text : reason);
+      throw BadInput(refusal_of(setting, reason.empty() ? "invalid. Expected: " + text : reason));
     }
+    if (origin)
+      settings.push_back(setting);
   });
   prm.leave_subsection();
 }
 
+/// The key of a setting. @throws BadInput with the nearest keys where there is none
 const Key& Keys::at(const Setting& setting) const {
   const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& known) {
     return known.section == setting.section && known.name == setting.key;
@@ -142,21 +113,36 @@ std::string Keys::nearest(const std::string& section, const std::string& name) c
 }
 
 void Keys::read(const std::string& text, const std::string& file) {
-  const std::vector<Setting> places = places_of(text, file);
-  origin = file;
-  std::istringstream in(text);
+  std::istringstream in(text + '\n');
+  origin = [&] {
+    const std::string before = (text + '\n').substr(0, in.tellg());
+    return file + ", line " + std::to_string(std::count(before.begin(), before.end(), '\n'));
+  };
+  for (std::string line; std::getline(in, line);)
+    if (line = trimmed(line).substr(0, 7); line == "include" || line == "INCLUDE")
+      throw BadInput(origin() + ": a parameter file cannot include others");
+  in.clear();
+  in.seekg(0);
   try {
     prm.parse_input(in, file);
-  } catch (const BadValue& value) {
-    throw BadInput(refusal(places, value));
   } catch (const ExceptionBase& error) {
-    throw BadInput(explain(error, places, file));
+    constexpr unsigned int longest = 300;
+    std::ostringstream complaint;
+    error.print_info(complaint);
+    const std::string message =
+        std::regex_replace(trimmed(complaint.str().substr(0, longest)), std::regex("\\s+"), " ");
+    std::smatch unknown;
+    std::string hint;
+    if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>")))
+      hint = nearest("", unknown[1]);
+    else if (std::regex_search(message, unknown, std::regex("subsection to be entered: (.*)")))
+      hint = nearest(unknown[1], "");
+    throw BadInput(file + ": " + printable(message, longest) + hint);
   }
   for (const Setting& setting : settings)
-    if (last_of(settings, setting.path()) != &setting)
-      throw BadInput(refusal(
-          places, BadValue(setting.section, setting.key, "this is the second value of the key")));
-  // deal.II does not check values with a brace, which are lists for its own studies.
+    if (const Setting& last = *last_of(settings, setting.path()); &last != &setting)
+      throw BadInput(refusal_of(last, "this is the second value of the key"));
+  // deal.II takes values with a brace as lists for its own studies, without calling actions.
   for (const Key& key : keys) {
     prm.enter_subsection(key.section);
     const std::string value = prm.get(key.name);
@@ -174,39 +160,14 @@ void Keys::set(const Setting& setting) {
       (!value.empty() && value.back() == '\\'))
     throw BadInput(refusal_of(setting, "a parameter file cannot hold #, control characters, blanks "
                                        "at the ends or a backslash at the end of a value"));
-  origin = setting.origin;
+  origin = [&] { return setting.origin; };
   prm.enter_subsection(key.section);
-  try {
-    prm.set(key.name, value);
-  } catch (const BadValue& refused) {
-    throw BadInput(refusal(settings, refused));
-  } catch (const ParameterHandler::ExcValueDoesNotMatchPattern&) {
-    throw BadInput(refusal_of(setting, key));
-  }
+  prm.set(key.name, value);
   prm.leave_subsection();
 }
 
 void Keys::print(std::ostream& out) const {
   prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
-}
-
-/// The message on a line that deal.II refused: at most the number is taken from its own.
-std::string Keys::explain(const ExceptionBase& error, const std::vector<Setting>& places,
-                          const std::string& file) const {
-  std::ostringstream complaint;
-  error.print_info(complaint);
-  unsigned int number = 0;
-  std::sscanf(complaint.str().c_str(), " Line <%u>", &number);
-  const std::string origin = file + ", line " + std::to_string(number);
-  const auto place = std::find_if(places.begin(), places.end(),
-                                  [&](const Setting& setting) { return setting.origin == origin; });
-  if (place != places.end() && !place->key.empty())
-    return refusal_of(*place, at(*place));
-  constexpr unsigned int longest = 300;
-  const std::string text =
-      std::regex_replace(trimmed(complaint.str().substr(0, longest)), std::regex("\\s+"), " ");
-  return file + ": " + printable(text, longest) +
-         (place == places.end() ? "" : nearest(place->section, ""));
 }
 
 } // namespace rollwave

@@ -30,48 +30,44 @@ UnitNames parse_unit_names(const std::string& text) {
 } // namespace
 
 std::set<OutputFile> parse_files(const std::string& text) {
-  using File = OutputFile;
-  const std::map<std::string, std::set<File>> kinds = {
-      {"summary", {File::summary}},
-      {"contact", {File::contact}},
-      {"solution", {File::solution}},
-      {"surface", {File::surface}},
-      {"plot", {File::plot}},
-      {"parameters", {File::parameters}},
-      {"all", {File::summary, File::contact, File::solution, File::surface, File::plot}}};
-  std::set<File> files = {File::parameters};
+  const std::map<std::string, OutputFile> kinds = {
+      {"summary", OutputFile::summary},   {"contact", OutputFile::contact},
+      {"solution", OutputFile::solution}, {"surface", OutputFile::surface},
+      {"plot", OutputFile::plot},         {"parameters", OutputFile::parameters}};
+  std::set<OutputFile> files = {OutputFile::parameters};
   for (const std::string& name : split(text, ',')) {
     const auto kind = kinds.find(name);
     if (kind == kinds.end())
       throw BadInput("");
-    files.insert(kind->second.begin(), kind->second.end());
+    files.insert(kind->second);
   }
   return files;
 }
 
 void declare_output(Keys& keys, OutputOptions& output, UnitNames& names) {
-  keys.enter("Output", Affects::files);
-  keys.add_parsed(
+  keys.enter("Output", 0);
+  keys.declare(
       "Directory", output.directory,
-      [&output](const std::string& text) {
-        if (text.empty())
+      [&output](const Setting& setting) {
+        if (setting.value.empty())
           throw BadInput("");
-        output.directory = text;
+        output.directory = setting.value;
       },
       "Directory of the files, relative to the current one, made when missing. Where this key is "
       "left out: output/NAME for a parameter file NAME.prm.");
-  keys.add_parsed(
+  keys.declare(
       "Files", "summary, contact, solution, surface, plot",
-      [&output](const std::string& text) { output.files = parse_files(text); },
+      [&output](const Setting& setting) { output.files = parse_files(setting.value); },
       "Files to write in addition to parameters.prm: any of summary (summary.json), contact "
       "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
-      "study.svg of a study), or all.");
+      "study.svg of a study).");
   keys.add_choice<CellKind>(
       "Cells", output.cells, {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
       "Cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
       "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
-  keys.add_parsed(
-      "Unit names", "", [&names](const std::string& text) { names = parse_unit_names(text); },
+  keys.declare(
+      "Unit names", "",
+      [&names](const Setting& setting) { names = parse_unit_names(setting.value); },
       "Empty, or names of the units of length, time and force, as in \"m, s, N\" or \"mm, s, N\", "
       "of letters, digits, blanks and ^*/.-()%: screen, files and pictures then name the unit of "
       "each number.");

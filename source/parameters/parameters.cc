@@ -10,6 +10,7 @@
 #include <fstream>
 #include <limits>
 #include <ostream>
+#include <sstream>
 
 namespace rollwave {
 
@@ -25,15 +26,15 @@ void declare_cylinder(Keys& keys, CylinderOptions& cylinder) {
   keys.enter("Cylinder", Affects::scene);
   keys.add("Inner radius", cylinder.inner_radius, Patterns::Double(tiny, huge),
            "Radius a of the rigid hub: a length, greater than 0 and at least 1e-150 b.",
-           {Affects::mesh | Affects::titles, "a", "radius of the hub", Quantity::length});
+           {Affects::mesh | Affects::titles, "a", Quantity::length});
   // Energies have the square of the unit of length.
   keys.add("Outer radius", cylinder.outer_radius, Patterns::Double(1e-151, 1e151),
            "Radius b of the undeformed cylinder: a length from 1e-151 to 1e151, greater than a.",
-           {Affects::mesh | Affects::titles, "b", "radius of the cylinder", Quantity::length});
+           {Affects::mesh | Affects::titles, "b", Quantity::length});
   keys.add("Angular velocity", cylinder.angular_velocity, Patterns::Double(0, huge),
            "Angular velocity omega of rolling: radians per unit of time, from 0 to the critical "
            "speed, (mu/rho)^(1/2)/b with mu and rho of section Material.",
-           {Affects::titles, "ω", "", Quantity::angular_velocity});
+           {Affects::titles, "ω", Quantity::angular_velocity});
   keys.add("Radial force", cylinder.radial_force, Patterns::Anything(),
            "Radial force f per unit of volume, positive outwards: an expression in r and z, a <= r "
            "<= b, 0 <= z < 2 pi, as in 1 + 0.5*r*cos(z) or if(r > 0.7 && z < 4, 1, 0). int and "
@@ -47,34 +48,34 @@ void declare_material(Keys& keys, MaterialOptions& material) {
   keys.add("Shear modulus", material.shear_modulus, range,
            "Shear modulus mu: a pressure, from 1e-30 to 1e30, in any consistent system of units. "
            "With 1, pressures and forces are relative to the shear modulus.",
-           {0, "μ", "", Quantity::pressure});
+           {0, "μ", Quantity::pressure});
   keys.add("Density", material.density, range,
            "Density rho: a mass per volume, from 1e-30 to 1e30. With density and shear modulus 1, "
            "the angular velocity is relative to the wave speed.",
-           {0, "", "", Quantity::density});
+           {0, "", Quantity::density});
   keys.add("Width", material.width, range,
            "Width of the cylinder along its axle: a length, from 1e-30 to 1e30. With 1, forces, "
            "energies and stiffness are per unit of length of the axle.",
-           {0, "w", "", Quantity::length});
+           {0, "w", Quantity::length});
 }
 
 void declare_road(Keys& keys, RoadOptions& road) {
   const Patterns::Double positive(tiny, huge);
   keys.enter("Road", Affects::scene);
-  keys.add_parsed(
+  keys.declare(
       "Distance", "0.8",
-      [&road, positive](const std::string& text) {
-        if (text != "none")
-          road.distance = converted<double>(text, positive);
+      [&road, positive](const Setting& setting) {
+        if (setting.value != "none")
+          road.distance = converted<double>(setting.value, positive);
       },
       "Distance c of the road below the axle: a length, greater than a; less than 2 b where the "
       "contact zone is auto. \"none\" where a load is given.",
-      {Affects::titles, "c", "road distance", Quantity::length});
+      {Affects::titles, "c", Quantity::length});
   keys.add("Load", road.load, "none", positive,
            "\"none\", or instead of the distance the load on the whole width: a force, "
            "greater than 0. A file gives the distance or the load; either one replaces "
            "the other where the command line or a study gives it.",
-           {0, "L", "", Quantity::force});
+           {0, "L", Quantity::force});
   keys.add_choice<LoadKind>(
       "Load kind", road.load_kind,
       {{"vertical", LoadKind::vertical},
@@ -86,7 +87,7 @@ void declare_road(Keys& keys, RoadOptions& road) {
   keys.add("Curvature", road.curvature, Patterns::Double(),
            "Curvature kappa of the road: one over a length. 0: flat; positive: the outside of a "
            "drum; negative: the inside of a drum, with -1/kappa > b.",
-           {0, "κ", "curvature of the road"});
+           {0, "κ"});
   keys.add(
       "Contact zone", road.contact_zone, "auto",
       Patterns::Tuple(",", Patterns::Double(), Patterns::Double()),
@@ -94,7 +95,7 @@ void declare_road(Keys& keys, RoadOptions& road) {
       "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
       "surface without contact would be beyond the road, and two cells more, but never beyond "
       "phi < b; where the force is not uniform, it is where phi < b.",
-      {Affects::mesh, "[z0, z1]", "zone of contact"});
+      {Affects::mesh, "[z0, z1]"});
 }
 
 void declare_mesh(Keys& keys, Parameters& p) {
@@ -136,7 +137,7 @@ void declare_mesh(Keys& keys, Parameters& p) {
 }
 
 void declare_certificate(Keys& keys, CertificateOptions& certificate) {
-  keys.enter("Certificate", Affects::method);
+  keys.enter("Certificate", 0);
   keys.add("Error bound", certificate.error_bound, Patterns::Bool(),
            "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
            "with bounds of the energy from both sides; costs at most about another linear solve.");
@@ -147,7 +148,7 @@ void declare_certificate(Keys& keys, CertificateOptions& certificate) {
 }
 
 void declare_contact(Keys& keys, ContactOptions& contact) {
-  keys.enter("Contact", Affects::method);
+  keys.enter("Contact", 0);
   keys.add_choice<ContactMethod>(
       "Method", contact.method,
       {{"active set", ContactMethod::active_set}, {"uzawa", ContactMethod::uzawa}},
@@ -158,7 +159,7 @@ void declare_contact(Keys& keys, ContactOptions& contact) {
            "Step length rho of Uzawa's method, a pressure over a displacement: a number "
            "greater than 0, or \"auto\": 1.8 over the largest eigenvalue of the "
            "compliance of the contact zone.",
-           {Affects::uzawa, "ρ", "step length", Quantity::force_density});
+           {Affects::uzawa, "ρ", Quantity::force_density});
   keys.add_choice<UzawaStop>(
       "Stopping rule", contact.stop, {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
       "The quantity that Uzawa's method compares with the tolerance, in the l2 norm over the "
@@ -207,21 +208,20 @@ struct KeysOfParameters {
   void set(const std::vector<Setting>& settings);
 };
 
-/// Of distance and load the later one holds; the other is set to none.
+/// The last setting of a key of section Road, nullptr without one or for "none".
+const Setting* given(const std::vector<Setting>& settings, const char* key) {
+  const Setting* const last = last_of(settings, std::string("Road/") + key);
+  return last && last->value != "none" ? last : nullptr;
+}
+
+/// The later one of distance and load holds; the other is set to none.
 void KeysOfParameters::set(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings)
     keys.set(setting);
-  const auto given = [&](const char* key) {
-    const Setting* const last = last_of(settings, std::string("Road/") + key);
-    return last && last->value != "none" ? last : nullptr;
-  };
-  const Setting *const distance = given("Distance"), *const load = given("Load");
+  const Setting *const distance = given(settings, "Distance"), *const load =
+                                                                   given(settings, "Load");
   if (!distance && !load && last_of(settings, "Road/Distance"))
     throw BadInput(refusal(settings, BadValue("Road", "Distance", "Road/Load is not given")));
-  if (distance && load && distance->origin == load->origin)
-    throw BadInput(refusal(settings, BadValue("Road", "Load",
-                                              "the distance follows from the load; leave out "
-                                              "Road/Distance or Road/Load, or set it to none")));
   if (load && (!distance || load > distance))
     keys.set({"Road", "Distance", "none", load->origin});
   else if (load)
@@ -249,27 +249,26 @@ std::string value_of(const Key& key, const std::vector<Setting>& settings) {
 std::vector<Setting> parse_settings(const std::string& text, const std::string& name) {
   KeysOfParameters read;
   read.keys.read(text, name);
-  return read.parameters.settings;
+  const std::vector<Setting>& settings = read.parameters.settings;
+  if (given(settings, "Distance") && given(settings, "Load"))
+    throw BadInput(refusal(settings, BadValue("Road", "Load",
+                                              "the distance follows from the load; leave out "
+                                              "Road/Distance or Road/Load, or set it to none")));
+  return settings;
 }
 
 std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm communicator) {
-  constexpr std::size_t longest = 1 << 20; // a device may have no end
   const std::string name = file.string();
-  std::string text, failure;
+  std::ostringstream text;
   if (process_number(communicator) == 0) {
     std::ifstream in(file);
-    text.resize(longest + 1);
-    in.read(text.data(), text.size());
-    text.resize(in.gcount());
+    in.peek(); // fails for a directory
     if (!in.is_open() || in.bad())
-      failure = ": this parameter file cannot be read: " + std::string(std::strerror(errno));
-    else if (text.size() > longest)
-      failure = ": this is no parameter file, it is longer than 1 MiB";
+      throw BadInput(printable(name) +
+                     ": this parameter file cannot be read: " + std::strerror(errno));
+    text << in.rdbuf();
   }
-  failure = broadcast(communicator, failure);
-  if (!failure.empty())
-    throw BadInput(printable(name) + failure);
-  return parse_settings(broadcast(communicator, text), name);
+  return parse_settings(broadcast(communicator, text.str()), name);
 }
 
 Parameters read_parameters(const std::vector<Setting>& settings) {

@@ -7,15 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace rollwave {
 
 using namespace dealii;
 
 namespace {
-
-/// A study lists all of its combinations before it begins.
-constexpr unsigned int most_runs = 100000;
 
 /// The parts between separators that are not in double quotes, trimmed; none for an empty text.
 std::vector<std::string> split_unquoted(const std::string& text, char separator) {
@@ -39,29 +37,23 @@ std::string without_quotes(const std::string& text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// The values of "first : last : step" or "first : last / number", otherwise the text itself, which
-/// may be an expression with a colon.
+/// The values of "first : last : step", otherwise the text itself, which may be an expression with
+/// a colon.
 std::vector<std::string> values_of(const std::string& text) {
-  auto parts = split(text, ':');
-  const auto counted = parts.size() == 2 ? split(parts[1], '/') : std::vector<std::string>();
-  if (counted.size() == 2)
-    parts = {parts[0], counted[0], counted[1]};
+  const auto parts = split(text, ':');
   const Patterns::Double number;
   if (parts.size() != 3 || !std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
         return number.match(part);
       }))
-    return {without_quotes(text)};
+    return {text};
   const double first = converted<double>(parts[0], number),
                last = converted<double>(parts[1], number),
-               third = converted<double>(parts[2], number);
-  const double n_values = !counted.empty() ? third
-                          : third == 0     ? 0
-                                           : std::floor((last - first) / third + 1e-9) + 1;
-  if (!(n_values >= 1 && n_values <= most_runs) ||
-      (!counted.empty() && (n_values < 2 || n_values != std::floor(n_values))))
-    throw BadInput(in_quotes(text) + " is no range of 1 to " + std::to_string(most_runs) +
-                   " values: first : last : step, or first : last / number");
-  const double step = counted.empty() ? third : (last - first) / (n_values - 1);
+               step = converted<double>(parts[2], number);
+  constexpr unsigned int most_values = 100000;
+  const double n_values = step == 0 ? 0 : std::floor((last - first) / step + 1e-9) + 1;
+  if (!(n_values >= 1 && n_values <= most_values))
+    throw BadInput(in_quotes(text) + " is no range first : last : step of 1 to " +
+                   std::to_string(most_values) + " values");
   std::vector<std::string> values;
   for (unsigned int i = 0; i < n_values; ++i) {
     const double value = first + i * step;
@@ -70,66 +62,63 @@ std::vector<std::string> values_of(const std::string& text) {
   return values;
 }
 
-/// The assignment to a key that may differ between the runs of a study.
-Setting parse_run_setting(const std::string& text, const Keys& keys) {
-  Setting setting = parse_setting(text, "section Study");
-  if ((keys.at(setting).affects & ~Affects::files) == 0)
-    throw BadInput(setting.path() +
-                   " cannot be varied; Study/Files of each run writes files of each run");
+/// The assignment of a value, which may be in quotes, to a key that may differ between the runs of
+/// a study.
+Setting parse_run_setting(const std::string& text, const std::string& origin) {
+  Setting setting = parse_setting(text, origin + ", section Study");
+  if (setting.section == "Study" || setting.section == "Output")
+    throw BadInput(setting.path() + " cannot be varied");
   setting.value = without_quotes(setting.value);
-  setting.origin = keys.current_origin() + ", section Study";
   return setting;
 }
 
 /// "Key & Key = value & value | ..." or "Key = value | ...".
-Variation parse_variation(const std::string& text, const Keys& keys) {
+Variation parse_variation(const std::string& text, const std::string& origin) {
   const auto equals = text.find('=');
   const auto names = split(text.substr(0, equals), '&');
   if (equals == std::string::npos || names.empty())
     throw BadInput(in_quotes(text) + " is not of the form Section/Key = value | value");
   Variation variation;
+  const auto add = [&](const std::vector<std::string>& values) {
+    if (values.size() != names.size())
+      throw BadInput(in_quotes(text) + " does not have one value for each of the " +
+                     std::to_string(names.size()) + " keys that vary together");
+    variation.emplace_back();
+    for (unsigned int k = 0; k < names.size(); ++k)
+      variation.back().push_back(parse_run_setting(names[k] + '=' + values[k], origin));
+  };
   for (const std::string& choice : split_unquoted(text.substr(equals + 1), '|'))
-    for (const std::string& value : names.size() == 1 ? values_of(choice) : std::vector{choice}) {
-      const auto values = names.size() == 1 ? std::vector{value} : split_unquoted(value, '&');
-      if (values.size() != names.size())
-        throw BadInput(in_quotes(choice) + " does not have one value for each of the " +
-                       std::to_string(names.size()) + " keys that vary together");
-      variation.emplace_back();
-      for (unsigned int k = 0; k < names.size(); ++k) {
-        variation.back().push_back(parse_run_setting(names[k] + "=", keys));
-        variation.back().back().value = without_quotes(values[k]);
-      }
-    }
+    if (names.size() > 1)
+      add(split_unquoted(choice, '&'));
+    else
+      for (const std::string& value : values_of(choice))
+        add({value});
   if (variation.empty())
     throw BadInput(in_quotes(text) + " gives no value");
   return variation;
 }
 
-std::vector<Variation> parse_vary(const std::string& text, const Keys& keys) {
+std::vector<Variation> parse_vary(const Setting& setting) {
   std::vector<Variation> vary;
   std::set<std::string> paths;
-  double n_runs = 1;
-  for (const std::string& part : split_unquoted(text, ';')) {
-    vary.push_back(parse_variation(part, keys));
-    n_runs *= vary.back().size();
-    if (n_runs > most_runs)
-      throw BadInput("these are more than " + std::to_string(most_runs) + " runs");
-    for (const Setting& setting : vary.back().front())
-      if (!paths.insert(setting.path()).second)
-        throw BadInput(setting.path() + " is varied twice");
+  for (const std::string& part : split_unquoted(setting.value, ';')) {
+    vary.push_back(parse_variation(part, setting.origin));
+    for (const Setting& varied : vary.back().front())
+      if (!paths.insert(varied.path()).second)
+        throw BadInput(varied.path() + " is varied twice");
   }
   return vary;
 }
 
-std::vector<NamedScene> parse_scenes(const std::string& text, const Keys& keys) {
+std::vector<NamedScene> parse_scenes(const Setting& setting) {
   std::vector<NamedScene> scenes;
-  for (const std::string& part : split_unquoted(text, ';')) {
+  for (const std::string& part : split_unquoted(setting.value, ';')) {
     const auto colon = part.find(':');
     if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
       throw BadInput("");
     scenes.push_back({trimmed(part.substr(0, colon)), {}});
     for (const std::string& assignment : split_unquoted(part.substr(colon + 1), '&'))
-      scenes.back().settings.push_back(parse_run_setting(assignment, keys));
+      scenes.back().settings.push_back(parse_run_setting(assignment, setting.origin));
   }
   return scenes;
 }
@@ -146,33 +135,33 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
 } // namespace
 
 void declare_study(Keys& keys, StudyOptions& study) {
-  keys.enter("Study", Affects::files);
-  keys.add_parsed(
-      "Vary", "", [&](const std::string& text) { study.vary = parse_vary(text, keys); },
+  keys.enter("Study", 0);
+  keys.declare(
+      "Vary", "", [&study](const Setting& setting) { study.vary = parse_vary(setting); },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
-      "varies fastest. A value may be a range, first : last : step or first : last / number, as in "
-      "\"Road/Distance = 0.6 : 0.9 : 0.05\". Keys joined by & vary together, as in \"Mesh/Radial "
+      "varies fastest. A value may be a range first : last : step, as in \"Road/Distance = 0.6 : "
+      "0.9 : 0.05\". Keys joined by & vary together, as in \"Mesh/Radial "
       "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". Double quotes around a value protect the "
-      "signs | & ; : in it. Each key at most once and none of Study and Output, in at most 100000 "
-      "combinations.");
-  keys.add_parsed(
-      "Scenes", "", [&](const std::string& text) { study.scenes = parse_scenes(text, keys); },
+      "signs | & ; : in it. Keys of Study and Output cannot be varied, and each key at most once.");
+  keys.declare(
+      "Scenes", "", [&study](const Setting& setting) { study.scenes = parse_scenes(setting); },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
       "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
       "Mesh/Radial cells = 8\", where double quotes protect the signs & and ; in a value. Every "
       "scene is run with every combination of Vary.");
-  keys.add_parsed(
+  keys.declare(
       "Published steps", "",
-      [&](const std::string& text) { study.published_steps = parse_counts(text); },
+      [&study](const Setting& setting) { study.published_steps = parse_counts(setting.value); },
       "Published numbers of contact steps, which tables and plots show next to the computed ones: "
       "one for each run in the order of the runs, separated by commas, - where unknown.");
   keys.add("True errors", study.true_errors, Patterns::Bool(),
            "\"true\" or \"false\": compare every run of a study with the exact solution of its "
            "scene, where it is known, and measure its full time.");
-  keys.add_parsed(
+  keys.declare(
       "Files of each run", "",
-      [&](const std::string& text) {
+      [&study](const Setting& setting) {
+        const std::string& text = setting.value;
         study.files_of_each_run = text.empty() ? std::set<OutputFile>() : parse_files(text);
       },
       "Files to write for each run of a study, any of those of Output/Files, into run-001, "

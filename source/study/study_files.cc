@@ -60,7 +60,7 @@ std::string title_of(const Study& study) {
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
     if (is_shared && is_named && setting.value != "none")
-      title += (title.empty() ? "" : ", ") + told(setting, study.units());
+      title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
   }
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
@@ -86,7 +86,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
 }
 
 std::string x_label_of(const Study& study) {
-  return words(study.plans.front().varied[study.first_keys.back()], study.units());
+  return axis_label(study.plans.front().varied[study.first_keys.back()], study.units());
 }
 
 /// The quantities for curves over the key that varies fastest.
@@ -156,8 +156,8 @@ std::optional<Picture> map_of_load(const Study& study) {
         {{x[run], y[run], study.value(run, "contact.vertical_load").value_or(missing_point)}});
   }
   const Units units = study.units();
-  return plot_map(title_of(study), words(varied[0], units),
-                  words(varied[study.first_keys[1]], units),
+  return plot_map(title_of(study), axis_label(varied[0], units),
+                  axis_label(varied[study.first_keys[1]], units),
                   "vertical load" + units.in_brackets(Quantity::force), lines);
 }
 

@@ -59,6 +59,12 @@ void check_method(const std::vector<RunPlan>& plans) {
                      setting.path() + " has no effect without Contact/Method = uzawa");
 }
 
+std::string lower_case_name(const Key& key) {
+  std::string name = key.name;
+  name[0] = std::tolower(name[0]);
+  return name;
+}
+
 } // namespace
 
 std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes) {
@@ -86,24 +92,23 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
   return plans;
 }
 
-std::string words(const Setting& setting, const Units& units) {
+std::string axis_label(const Setting& setting, const Units& units) {
   const Key& key = key_of(setting);
-  std::string text = key.words.empty() ? key.name : key.words;
-  text[0] = std::tolower(text[0]);
-  return text + (key.symbol.empty() ? "" : ' ' + key.symbol) + units.in_brackets(key.quantity);
+  return lower_case_name(key) + (key.symbol.empty() ? "" : ' ' + key.symbol) +
+         units.in_brackets(key.quantity);
 }
 
-std::string told(const Setting& setting, const Units& units) {
+std::string key_with_value(const Setting& setting, const Units& units) {
   const Key& key = key_of(setting);
-  return (key.symbol.empty() ? words(setting, {}) + ' ' : key.symbol + " = ") + setting.value +
+  return (key.symbol.empty() ? lower_case_name(key) + ' ' : key.symbol + " = ") + setting.value +
          units.after(key.quantity);
 }
 
-std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told) {
+std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_named) {
   std::string text = plan.scene;
   for (const Setting& setting : plan.varied)
-    if (is_told(setting))
-      text += (text.empty() ? "" : ", ") + told(setting, {1, plan.parameters.material});
+    if (is_named(setting))
+      text += (text.empty() ? "" : ", ") + key_with_value(setting, {1, plan.parameters.material});
   return text;
 }
 

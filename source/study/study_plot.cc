@@ -80,14 +80,6 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << '\n' << data.str();
 }
 
-/// All curves, or most_curves of them at equal distances.
-std::vector<Curve> distinct(const std::vector<Curve>& curves) {
-  std::vector<Curve> chosen;
-  for (const unsigned int i : equidistant_numbers(curves.size(), most_curves))
-    chosen.push_back(curves[i]);
-  return chosen;
-}
-
 } // namespace
 
 std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most) {
@@ -101,8 +93,12 @@ std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most)
 Picture plot_panels(std::string title, std::vector<Panel> panels) {
   if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves)
     title += "; " + std::to_string(most_curves) + " of " + std::to_string(n_curves) + " curves";
-  for (Panel& panel : panels)
-    panel.curves = distinct(panel.curves);
+  for (Panel& panel : panels) {
+    std::vector<Curve> chosen;
+    for (const unsigned int i : equidistant_numbers(panel.curves.size(), most_curves))
+      chosen.push_back(panel.curves[i]);
+    panel.curves = std::move(chosen);
+  }
   std::ostringstream script;
   script.precision(9);
   script << "set grid\nset datafile missing 'NaN'\n";

@@ -83,10 +83,10 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   Study study;
   study.plans = plan_runs(parameters, count_processes(communicator));
   study.runs.resize(study.plans.size());
-  unsigned int place = 0;
+  unsigned int n_keys = 0;
   for (const Variation& variation : parameters.study.vary) {
-    study.first_keys.push_back(place);
-    place += variation.front().size();
+    study.first_keys.push_back(n_keys);
+    n_keys += variation.front().size();
   }
   return study;
 }

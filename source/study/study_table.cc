@@ -7,16 +7,21 @@
 
 #include <deal.II/base/table_handler.h>
 
-#include <algorithm>
-#include <cctype>
 #include <functional>
 #include <map>
 #include <ostream>
+#include <regex>
 #include <sstream>
 
 namespace rollwave {
 
 namespace {
+
+/// @p text with the characters escaped that have a meaning in TeX.
+std::string in_tex(const std::string& text) {
+  const std::string escaped = std::regex_replace(text, std::regex("[&%$#_{}]"), "\\$&");
+  return std::regex_replace(escaped, std::regex("[~^]"), "\\$&{}");
+}
 
 std::string outcome_of(const StudyRun& run) {
   return run.failure.empty() ? "solved" : run.is_solved() ? "target not reached" : "not solved";
@@ -52,28 +57,12 @@ dealii::TableHandler make_table(const Study& study,
   return table;
 }
 
-/// Prints each text once, with the runs that have it: texts that differ in their numbers only count
-/// as the same.
-void print_once(std::ostream& out, const std::string& what,
-                const std::vector<std::pair<unsigned int, std::string>>& texts,
-                unsigned int n_runs) {
-  struct Kind {
-    unsigned int first, count;
-    std::string text;
-  };
-  std::map<std::string, Kind> kinds;
-  for (const auto& [run, text] : texts) {
-    std::string words = text;
-    words.erase(
-        std::remove_if(words.begin(), words.end(),
-                       [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; }),
-        words.end());
-    ++kinds.try_emplace(words, Kind{run, 0, text}).first->second.count;
-  }
-  for (const auto& [words, kind] : kinds)
-    out << what << ", " << kind.count << " of " << n_runs << " runs"
-        << (kind.count > 1 ? ", such as run " : ", run ") << kind.first + 1 << ": " << kind.text
-        << '\n';
+/// Prints the first of some texts, with its run and the number of runs that have one.
+void print_first(std::ostream& out, const std::string& title,
+                 const std::map<unsigned int, std::string>& texts, unsigned int n_runs) {
+  if (!texts.empty())
+    out << title << ", " << texts.size() << " of " << n_runs << " runs; run "
+        << texts.begin()->first + 1 << ": " << texts.begin()->second << '\n';
 }
 
 } // namespace
@@ -105,22 +94,22 @@ std::string table_as_tex(const Study& study) {
 }
 
 void print_study_notes(std::ostream& out, const Study& study) {
-  std::vector<std::pair<unsigned int, std::string>> failures, shortfalls, remarks;
+  std::map<unsigned int, std::string> failures, shortfalls, remarks;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (const auto& made = study.runs[run]) {
       if (!made->failure.empty())
-        (made->is_solved() ? shortfalls : failures).emplace_back(run, made->failure);
+        (made->is_solved() ? shortfalls : failures)[run] = made->failure;
       for (const std::string& remark : made->remarks)
-        remarks.emplace_back(run, remark);
+        remarks[run] += (remarks[run].empty() ? "" : "; ") + remark;
     }
   out << "\nN: unknowns; steps: of the contact iteration; error, certified: true and bounded, "
          "relative in the\nenergy norm. study.csv has more. Its times exclude work reused from an "
          "earlier run (column shared).\n";
   if (study.has("error.exact_relative"))
     out << "Errors against the semi-analytic solution.\n";
-  print_once(out, "Not solved", failures, study.runs.size());
-  print_once(out, "Target not reached", shortfalls, study.runs.size());
-  print_once(out, "Note", remarks, study.runs.size());
+  print_first(out, "Not solved", failures, study.runs.size());
+  print_first(out, "Target not reached", shortfalls, study.runs.size());
+  print_first(out, "Note", remarks, study.runs.size());
   report_orders(out, study);
 }
 

@@ -41,7 +41,7 @@ std::string read_file(const std::filesystem::path& path);
 /// Writes a file and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
 
-/// Adds @p text at the end of a file; a part of it does not stay. @throws NotWritten.
+/// Adds @p text at the end of a file. @throws NotWritten; a part of the text may then be there.
 void append_to_file(const std::filesystem::path& path, const std::string& text);
 
 } // namespace rollwave

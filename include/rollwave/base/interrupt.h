@@ -5,10 +5,9 @@
 
 namespace rollwave {
 
-/// From here on the first SIGINT (Ctrl-C) or SIGTERM sets a flag, and the second one ends the
-/// program at once. The signals that batch systems send before the end set the flag too: SIGHUP,
-/// SIGUSR1, SIGUSR2, SIGXCPU. A signal that is ignored at the first call, as by nohup, stays
-/// ignored. Writing to a full disk or a closed pipe is an error of the stream, not a signal.
+/// From here on the first SIGINT (Ctrl-C), SIGTERM, SIGUSR1 or SIGUSR2 sets a flag; the same signal
+/// once more ends the program at once. Writing to a full disk or a closed pipe is an error of the
+/// stream, not a signal.
 /// @param reports true to print a message on the standard error when the flag is set
 void install_signal_handlers(bool reports = true);
 

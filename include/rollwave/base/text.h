@@ -7,9 +7,7 @@
 
 namespace rollwave {
 
-/// @p text for a message: at most @p longest bytes of it; control characters, and in UTF-8
-/// punctuation that looks like a blank or a minus sign, are named by their bytes, as in C2 A0 (in
-/// hexadecimal digits).
+/// @p text for a message: at most @p longest bytes of it, with ? for control characters.
 std::string printable(const std::string& text, std::size_t longest = 150);
 
 /// printable(text) in quotation marks.
@@ -30,9 +28,6 @@ std::string rounded(double number, int digits);
 
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
-
-/// @p text as TeX sets it.
-std::string in_tex(const std::string& text);
 
 } // namespace rollwave
 

@@ -9,7 +9,7 @@
 
 namespace rollwave {
 
-/// A value given to a key. The origin is the name of the file, or the option of the command line.
+/// A value given to a key. The origin is the file with the line, or the option of the command line.
 struct Setting {
   std::string section, key, value, origin;
 
@@ -32,10 +32,8 @@ struct Affects {
     scene = 1,      ///< the problem that is solved
     mesh = 2,       ///< mesh and linear solver, which runs with the same values share
     resolution = 4, ///< the number of cells
-    method = 8,     ///< contact iteration and error bounds
-    uzawa = 16,     ///< Uzawa's method only
-    files = 32,     ///< what is written
-    titles = 64     ///< titles of plots, which name the key even at its default
+    titles = 8,     ///< titles of plots, which name the key even at its default
+    uzawa = 16      ///< Uzawa's method only
   };
 };
 
@@ -43,7 +41,6 @@ struct Affects {
 struct KeyAttributes {
   unsigned int affects = 0; ///< flags of Affects, to which those of the section are added
   std::string symbol = {};  ///< such as "c"
-  std::string words = {};   ///< such as "road distance"; empty: the name of the key
   Quantity quantity = Quantity::number;
 };
 

@@ -26,13 +26,13 @@ T converted(const std::string& text, const dealii::Patterns::PatternBase& patter
 
 /**
  * The keys of parameter files, each bound to a variable whose value is the default. deal.II's
- * ParameterHandler reads, checks and prints them. Its exceptions become messages of one line with
- * origin, section, key, value and what is expected.
+ * ParameterHandler reads and prints them, its patterns check them. A refusal is a message of one
+ * line with origin, section, key, value and what is expected.
  */
 class Keys {
 public:
   /// Sets the variable of a key. Throws BadInput, with or without a reason, for other texts.
-  using Parse = std::function<void(const std::string& value)>;
+  using Parse = std::function<void(const Setting& setting)>;
 
   /// @param settings to which every value given to a key is appended
   explicit Keys(std::vector<Setting>& settings) : settings(settings) {}
@@ -47,9 +47,10 @@ public:
   void add(const std::string& name, T& variable, const dealii::Patterns::PatternBase& pattern,
            const std::string& text, const KeyAttributes& attributes = {}) {
     const auto own = std::shared_ptr(pattern.clone());
-    const auto parse = [&variable, own](auto& value) { variable = converted<T>(value, *own); };
-    declare(name, dealii::Patterns::Tools::Convert<T>::to_string(variable, pattern), pattern, text,
-            attributes, parse);
+    declare(
+        name, dealii::Patterns::Tools::Convert<T>::to_string(variable, pattern),
+        [&variable, own](const Setting& setting) { variable = converted<T>(setting.value, *own); },
+        text, attributes);
   }
 
   /// A key with a value or, as its default, a word that stands for none.
@@ -58,10 +59,11 @@ public:
            const dealii::Patterns::PatternBase& pattern, const std::string& text,
            const KeyAttributes& attributes = {}) {
     const auto own = std::shared_ptr(pattern.clone());
-    const auto parse = [&variable, own, word](auto& value) {
-      variable = value == word ? std::nullopt : std::optional(converted<T>(value, *own));
+    const auto parse = [&variable, own, word](const Setting& setting) {
+      variable =
+          setting.value == word ? std::nullopt : std::optional(converted<T>(setting.value, *own));
     };
-    declare(name, word, dealii::Patterns::Anything(), text, attributes, parse);
+    declare(name, word, parse, text, attributes);
   }
 
   /// A key whose value is one of several names.
@@ -69,21 +71,21 @@ public:
   void add_choice(const std::string& name, Choice& variable,
                   const std::map<std::string, Choice>& choices, const std::string& text,
                   const KeyAttributes& attributes = {}) {
-    std::string names, default_name;
-    for (const auto& [known, choice] : choices) {
-      names += (names.empty() ? "" : "|") + known;
+    std::string default_name;
+    for (const auto& [known, choice] : choices)
       if (choice == variable)
         default_name = known;
-    }
-    declare(name, default_name, dealii::Patterns::Selection(names), text, attributes,
-            [&variable, choices](auto& value) { variable = choices.at(value); });
+    const auto parse = [&variable, choices](const Setting& setting) {
+      if (choices.count(setting.value) == 0)
+        throw BadInput("");
+      variable = choices.at(setting.value);
+    };
+    declare(name, default_name, parse, text, attributes);
   }
 
   /// A key whose value @p parse takes.
-  void add_parsed(const std::string& name, const std::string& default_value, const Parse& parse,
-                  const std::string& text, const KeyAttributes& attributes = {}) {
-    declare(name, default_value, dealii::Patterns::Anything(), text, attributes, parse);
-  }
+  void declare(const std::string& name, const std::string& default_value, const Parse& parse,
+               const std::string& text, const KeyAttributes& attributes = {});
 
   /// Gives the values in the text of a parameter file to their keys. @throws BadInput
   void read(const std::string& text, const std::string& file);
@@ -97,23 +99,14 @@ public:
   /// In the order of their declaration.
   const std::vector<Key>& all() const { return keys; }
 
-  /// The key of a setting. @throws BadInput with the nearest keys where there is none
-  const Key& at(const Setting& setting) const;
-
-  /// That of the value that is being read; empty for a default.
-  const std::string& current_origin() const { return origin; }
-
 private:
-  void declare(const std::string& name, const std::string& default_value,
-               const dealii::Patterns::PatternBase& pattern, const std::string& text,
-               const KeyAttributes& attributes, const Parse& parse);
+  const Key& at(const Setting& setting) const;
   std::string nearest(const std::string& section, const std::string& name) const;
-  std::string explain(const dealii::ExceptionBase& error, const std::vector<Setting>& places,
-                      const std::string& file) const;
 
   std::vector<Setting>& settings;
-  std::string section, origin;
-  unsigned int affected = 0; ///< by the keys of the section
+  std::string section;
+  unsigned int affected = 0;           ///< by the keys of the section
+  std::function<std::string()> origin; ///< of the value that is being read; empty for defaults
   std::vector<Key> keys;
   dealii::ParameterHandler prm;
 };

@@ -44,17 +44,17 @@ std::string value_of(const Key& key, const std::vector<Setting>& settings);
 
 /// The settings in the text of a parameter file. @p name is that of the file in messages.
 /// @throws BadInput for an unknown section or key, a value that its key does not accept, a line of
-///         another form, a key that is set twice, or a section that is not closed
+///         another form, a key that is set twice, both a distance and a load, or an open section
 std::vector<Setting> parse_settings(const std::string& text, const std::string& name);
 
 /// The same of the file at a path, which rank 0 reads for all: a pipe gives its text once.
-/// @throws BadInput also for a file that cannot be read or is longer than 1 MiB
+/// @throws BadInput also for a file that cannot be read, then on rank 0 only
 std::vector<Setting> read_settings(const std::filesystem::path& file,
                                    MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
- * The parameters with these settings; the other keys keep their defaults. Of `Road/Distance` and
- * `Road/Load` the later one holds, unless both have the same origin.
+ * The parameters with these settings; the other keys keep their defaults. The later one of
+ * `Road/Distance` and `Road/Load` replaces the other.
  *
  * @throws BadInput for an unknown section or key, or a value that its key does not accept.
  * Conditions between several keys are checked by make_scene().

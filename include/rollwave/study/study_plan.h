@@ -25,14 +25,14 @@ struct RunPlan {
 ///         for each run
 std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes);
 
-/// A key in words, with its symbol and unit, such as "road distance c [m]".
-std::string words(const Setting& setting, const Units& units);
+/// The label of an axis: a key with its symbol and unit, such as "distance c [m]".
+std::string axis_label(const Setting& setting, const Units& units);
 
 /// A key with its value, such as "c = 0.8 m" or "degree 2".
-std::string told(const Setting& setting, const Units& units);
+std::string key_with_value(const Setting& setting, const Units& units);
 
-/// The scene and the settings for which @p is_told, as text: "c = 0.8, degree 2".
-std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_told);
+/// The scene and the settings for which @p is_named, as text: "c = 0.8, degree 2".
+std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_named);
 
 } // namespace rollwave
 

@@ -18,7 +18,8 @@ std::string table_as_text(const Study& study);
 /// The same as a LaTeX document.
 std::string table_as_tex(const Study& study);
 
-/// Failures and remarks, each once for all runs that have it, and the orders of errors.
+/// The first failure and the first remarks with the number of runs that have some, and the orders
+/// of errors. study.csv has them all.
 void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave
