@@ -1,5 +1,6 @@
 #include "rollwave/output/scene_plot.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/output/surface_vtu.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
@@ -22,19 +23,39 @@ double zoom_of(const Scene& scene, const Result& result) {
                         std::abs(from_lowest_point(result.patch.ends->second)));
 }
 
+/// True if the user has given a material or names of units.
+bool has_own_units(const Units& units) {
+  return units.material.is_given() || !units.material.unit_names.length.empty();
+}
+
+/// The number to draw for a length 1 of the scene: in the user's units, or else in units of b.
+double drawn_length(const Scene& scene) {
+  return has_own_units(scene.units) ? scene.units.of(Quantity::length) : 1 / scene.outer_radius;
+}
+
+/// In single quotes for gnuplot, without the first and the last.
 std::string title_of(const Scene& scene, const Result& result) {
   const double b = scene.outer_radius;
-  const bool is_given = scene.units.material.is_given();
+  const Units& units = scene.units;
+  const auto in_units = [&](double number, Quantity quantity) {
+    return rounded(number * units.of(quantity), 4) + units.after(quantity);
+  };
   std::ostringstream title;
   title.precision(4);
-  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  "
-        << (is_given ? "omega / critical = " : "omega b = ") << scene.angular_velocity * b
-        << ",  c / b = " << scene.road.distance / b << ",  a / b = " << scene.inner_radius / b;
-  if (is_given)
-    title << ",  F = " << result.patch.force * scene.units.of(Quantity::force)
-          << scene.units.after(Quantity::force);
+  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  ";
+  if (has_own_units(units))
+    title << "a = " << in_units(scene.inner_radius, Quantity::length)
+          << ", b = " << in_units(b, Quantity::length)
+          << ", c = " << in_units(scene.road.distance, Quantity::length)
+          << ", vertical load = " << in_units(result.patch.vertical_load, Quantity::force)
+          << "'.\"\\n\".'"
+          << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
+          << ", rho = " << units.material.density << units.after(Quantity::density)
+          << ", width = " << units.material.width << units.after(Quantity::length)
+          << ", omega / critical = " << scene.angular_velocity * b;
   else
-    title << ",  F / b = " << result.patch.force / b;
+    title << "omega b = " << scene.angular_velocity * b << ",  c / b = " << scene.road.distance / b
+          << ",  a / b = " << scene.inner_radius / b << ",  F / b = " << result.patch.force / b;
   if (scene.road.curvature != 0)
     title << ",  kappa b = " << scene.road.curvature * b;
   return title.str();
@@ -45,14 +66,15 @@ std::string pressure_unit(const Units& units) {
   return name.empty() && units.material.shear_modulus == 1 ? " / modulus" : name;
 }
 
-/// The data of the panels, lengths in units of b, so that any scene fits the frames.
+/// The data of the panels.
 void write_data(std::ostream& script, const Scene& scene, const Result& result) {
-  const double b = scene.outer_radius, pressure_unit = scene.units.of(Quantity::pressure);
+  const double b = scene.outer_radius, length = drawn_length(scene),
+               pressure_unit = scene.units.of(Quantity::pressure);
   const auto add_point = [&](double r, double z) {
-    script << r * std::cos(z) << ' ' << r * std::sin(z) << '\n';
+    script << r * length * std::cos(z) << ' ' << r * length * std::sin(z) << '\n';
   };
   const auto add_surface = [&](const SurfacePoint& point) {
-    add_point(std::max(0., 1 + point.displacement / b), point.angle); // not through the axle
+    add_point(std::max(0., b + point.displacement), point.angle); // not through the axle
   };
   script << "$surface << EOD\n";
   for (const SurfacePoint& point : result.surface)
@@ -61,10 +83,10 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
   script << "EOD\n$road << EOD\n";
   for (const auto& [x, y] :
        points_of_road(scene, 4 * std::max(scene.outer_radius, scene.road.distance)))
-    script << x / scene.outer_radius << ' ' << y / scene.outer_radius << '\n';
+    script << x * length << ' ' << y * length << '\n';
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
-    script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap / b) << ' '
+    script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap * length) << ' '
            << row.pressure * pressure_unit << '\n';
   script << "EOD\n";
 }
@@ -83,12 +105,12 @@ set size ratio -1 0.5,0.94
 set origin 0,0
 set xrange [-half:half]
 set yrange [-half:half]
-set xlabel 'x / b' offset 0,0.6
-set ylabel 'y / b' offset 1
+set xlabel 'x'.unit offset 0,0.6
+set ylabel 'y'.unit offset 1
 set key below horizontal
 plot '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c' notitle, \
      '$surface' using 1:2 with filledcurves closed fillcolor rgb '#dbe7f3' notitle, \
-     cos(t),sin(t) with lines linestyle 2 title 'undeformed', \
+     b*cos(t),b*sin(t) with lines linestyle 2 title 'undeformed', \
      '$surface' using 1:2 with lines linestyle 1 title 'deformed', \
      a*cos(t),a*sin(t) with filledcurves closed fillcolor rgb '#ffffff' notitle, \
      a*cos(t),a*sin(t) with lines linestyle 4 title 'hub', \
@@ -96,16 +118,17 @@ plot '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c' noti
 unset key
 set lmargin at screen 0.58
 set rmargin at screen 0.98
-set tmargin at screen 0.93
-set bmargin at screen 0.68
+set tmargin at screen 0.90
+set bmargin at screen 0.65
 set size noratio
-set trange [1.5*pi-1.5*zoom:1.5*pi+1.5*zoom]
+set trange [1.5*pi-1.5*zoom/b:1.5*pi+1.5*zoom/b]
 set xrange [-zoom:zoom]
 set yrange [-c-0.36*height:-c+0.64*height]
 set format '%g'
+set ylabel offset 0
 plot '$surface' using 1:2 with filledcurves y1=0 fillcolor rgb '#dbe7f3', \
      '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c', \
-     cos(t),sin(t) with lines linestyle 2, \
+     b*cos(t),b*sin(t) with lines linestyle 2, \
      '$surface' using 1:2 with lines linestyle 1, \
      '$road' using 1:2 with lines linestyle 3
 unset parametric
@@ -115,16 +138,20 @@ set grid
 /// Gap and pressure over the angle.
 const char* const gap = R"(
 set xrange [-angle:angle]
-set tmargin at screen 0.58
-set bmargin at screen 0.37
+set tmargin at screen 0.55
+set bmargin at screen 0.36
 set yrange [0:*]
-set ylabel 'gap / b'
+set ytics font ',10'
+set ylabel 'gap'.unit offset -1
 set xlabel ''
 set format x ''
-plot '$contact' using 1:2 with lines linestyle 3
+set key default inside center top
+plot '$contact' using 1:2 with lines linestyle 3 notitle, \
+     NaN with lines dashtype 3 linewidth 1.5 linecolor black title ends
+unset key
 )";
 const char* const pressure = R"(
-set tmargin at screen 0.32
+set tmargin at screen 0.31
 set bmargin at screen 0.11
 set format x '%g'
 set xlabel '(z - 3 pi / 2) / rad'
@@ -145,12 +172,16 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   double largest = 0;
   for (const SurfacePoint& point : result.surface)
     largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
-  script << "a = " << scene.inner_radius / scene.outer_radius
-         << "\nc = " << scene.road.distance / scene.outer_radius << "\nhalf = 1.08 * "
-         << std::max(1.15, largest) << "\nzoom = " << zoom << "\nangle = " << std::min(zoom, 1.5)
-         << "\nroad_side = '" << (scene.road.curvature > 0 ? "closed" : "y1=-10")
-         << "'\nheight = " << 2 * zoom * ratio << "\nset multiplot title '"
-         << title_of(scene, result) << "'\n"
+  const double b = scene.outer_radius, length = drawn_length(scene);
+  const std::string unit =
+      has_own_units(scene.units) ? scene.units.in_brackets(Quantity::length) : " / b";
+  script << "a = " << scene.inner_radius * length << "\nb = " << b * length
+         << "\nc = " << scene.road.distance * length << "\nhalf = 1.08 * b * "
+         << std::max(1.15, largest) << "\nangle = " << std::min(zoom, 1.5) << "\nzoom = b * "
+         << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
+         << "\nends = '" << (result.patch.ends ? "ends of contact" : "")
+         << "'\nroad_side = " << (scene.road.curvature > 0 ? "'closed'" : "sprintf('y1=%g', -10*b)")
+         << "\nset multiplot title '" << title_of(scene, result) << "'\n"
          << pictures;
   for (const ContactPatch& patch : result.patch.patches)
     for (const double z : {patch.begin, patch.end})
@@ -159,7 +190,8 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.patch.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units)) << '\n'
+  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units))
+         << " offset -1\n"
          << pressure << "unset multiplot\n";
   return {script.str(), width, height};
 }

@@ -53,6 +53,9 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history,
     table.set_scientific(column, true);
   }
   print_table(out, table);
+  if (history.size() > most_lines)
+    out << "... steps " << most_lines / 2 + 1 << " to " << history.size() - most_lines / 2
+        << " left out\n";
 }
 
 /// The first file whose name ends as @p pattern says; empty without one.

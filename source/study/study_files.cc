@@ -185,9 +185,11 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
   }
   if (study.has("error.exact_relative") && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
-         {std::tuple("study-h", "mesh.h_max", "largest diameter of a cell h", 1.),
-          {"study-unknowns", "mesh.dofs", "unknowns", -0.5},
-          {"study-time", "seconds.total", "seconds", 0.}})
+         {std::tuple("study-h", "mesh.h_max",
+                     "largest diameter of a cell h" + study.units().in_brackets(Quantity::length),
+                     1.),
+          {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
+          {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())
     add("study", {{x_label_of(study), "contact steps",

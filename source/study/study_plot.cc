@@ -12,9 +12,8 @@ namespace rollwave {
 namespace {
 
 /// Colours of curves; with dashes and points they can be distinguished in print as well.
-const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                          "#000000", "#e69f00", "#56b4e9", "#8b4513",
-                                          "#7a3fbf", "#808000", "#d00030", "#707070"};
+const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73",
+                                          "#cc79a7", "#000000", "#e69f00"};
 
 /// With all digits that a picture can show.
 std::string plotted(double number) {
@@ -38,7 +37,7 @@ double below(const std::vector<Curve>& curves, double slope) {
   return least / 2;
 }
 
-/// Of the line of a curve, which repeats after twelve.
+/// The style of the line of a curve.
 std::string style(unsigned int curve, std::size_t n_points) {
   return "linespoints pointsize 0.6 pointinterval " + std::to_string(1 + n_points / 40) +
          " dashtype " + std::to_string(1 + curve % 4) + " pointtype " +
@@ -58,7 +57,10 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << (panel.has_log_x ? "\nset logscale x\nset offsets 0, 0, 0, 0\n"
                              : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
                                "set autoscale xfix\n")
-         << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\nplot ";
+         << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\n";
+  if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
+    script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";
+  script << "plot ";
   std::ostringstream data;
   auto add = [&, is_first = true](const Points& points, unsigned int curve,
                                   const std::string& style, const std::string& title) mutable {
@@ -139,12 +141,15 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
   script << "EOD\nset datafile missing 'NaN'\nset contour base\nset cntrparam levels 10\n"
             "unset surface\nset table $contours\nsplot $map\nunset table\nunset contour\n"
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
+            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
          << in_single_quotes(title) << "\nset xlabel " << in_single_quotes(x_label)
          << "\nset ylabel " << in_single_quotes(y_label) << "\nset cblabel "
          << in_single_quotes(value_label)
          << "\nset pm3d interpolate 8,8\n"
-            "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1\n";
+            "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1, "
+            "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::4::4 with labels boxed "
+            "font ',10'\n";
   return {script.str(), 760, 560};
 }
 

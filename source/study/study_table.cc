@@ -45,7 +45,9 @@ dealii::TableHandler make_table(const Study& study,
     for (const Setting& setting : study.plans[run].varied)
       add(setting.key, setting.value);
     if (study.has("published_steps"))
-      add("published", std::to_string(study.plans[run].published_steps.value_or(0)));
+      add("published", study.plans[run].published_steps
+                           ? std::to_string(*study.plans[run].published_steps)
+                           : "-");
     for (const ResultQuantity& quantity : result_quantities())
       if ((quantity.shown & Shown::table) && study.has(quantity.name)) {
         const auto value = study.value(run, quantity.name);
@@ -73,7 +75,8 @@ std::string line_of_run(const Study& study, unsigned int run) {
        << label(study.plans[run], [](const Setting&) { return true; }) << ":  ";
   if (const auto force = study.value(run, "contact.force"))
     line << "F = " << rounded(*force, 6) << study.units().after(Quantity::force) << ", "
-         << study.value(run, "iterations.contact").value_or(0) << " steps, "
+         << study.value(run, "iterations.contact").value_or(0)
+         << (study.value(run, "iterations.contact") == 1 ? " step, " : " steps, ")
          << rounded(study.value(run, "seconds.total").value_or(0), 3) << " s, ";
   line << outcome_of(*study.runs[run]);
   return line.str();

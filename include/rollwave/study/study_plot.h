@@ -27,7 +27,7 @@ struct Panel {
 };
 
 /// The most curves that can be distinguished in one panel.
-constexpr unsigned int most_curves = 12;
+constexpr unsigned int most_curves = 6;
 
 /// All numbers below @p n, or @p most of them at equal distances.
 std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most);
