@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what the documents tell: writes doc/results/NAME.md with the commands, fills the tables
+"""Measures the numbers of the documents: writes doc/results/NAME.md with the commands, fills the tables
 between "<!-- measured: NAME -->" and "<!-- end -->" in README.md and doc/, draws doc/pictures/.
 
 Usage, in the root of the repository: tests/measure.py [--rollwave build/rollwave] [NAME...]
@@ -25,7 +25,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 rollwave = pathlib.Path(arguments.rollwave).resolve()
 work = pathlib.Path(tempfile.mkdtemp())
 environment = {**os.environ, 'OMPI_ALLOW_RUN_AS_ROOT': '1', 'OMPI_ALLOW_RUN_AS_ROOT_CONFIRM': '1'}
-commands = []  # of the measurement at hand, as a reader would type them
+commands = []  # of the current measurement, as a reader would type them
 
 
 def call(prm, settings, options=(), launcher=()):
@@ -201,7 +201,7 @@ def phases():
     for degree, radial, angular in ((1, 88, 1112), (2, 44, 556), (1, 282, 3544), (2, 141, 1772)):
         run = scene('figure-4', {**uniform(degree, radial, angular),
                                  'Output/Files': 'summary, contact, solution'}, repeats=2)
-        seconds = run['seconds.total']
+        seconds = run['seconds']
         rows.append([f'Q{degree}', run['mesh']['dofs'],
                      *[sum(seconds.get(phase, 0.) for phase in group) for group in (
                          ['mesh', 'space'], ['assembly'], ['ordering', 'factorisation'], ['contact'],
@@ -217,7 +217,8 @@ def sweep():
         runs = study('figure-4', {**uniform(degree, radial, angular), 'Output/Files': 'summary',
                                   'Study/Vary': 'Road/Distance = 0.78 | 0.79 | 0.8 | 0.81 | 0.82 | 0.83'})
         others = sorted(run['seconds.total'] for run in runs[1:])
-        rows.append([f'Q{degree}', runs[0]['dofs'], runs[0]['seconds'], others[len(others) // 2]])
+        rows.append([f'Q{degree}', runs[0]['mesh.dofs'], runs[0]['seconds.total'],
+                     others[len(others) // 2]])
     return [table(['elements', 'unknowns', 'first distance, seconds', 'a further one, seconds'],
                   rows)] * 2
 
@@ -239,6 +240,11 @@ def pictures():
         directory = call(name, {})
         shutil.copy(directory / 'scene.svg',
                     root / 'doc/pictures' / f'{pathlib.Path(name).name}.svg')
+    roller = re.search(r'```prm\n(.*?)```', (root / 'doc/manual.md').read_text(), re.S)[1]
+    (work / 'roller.prm').write_text(roller)
+    subprocess.run([rollwave, work / 'roller.prm', '--output', work / 'roller'],
+                   stdout=subprocess.DEVNULL)
+    shutil.copy(work / 'roller/scene.svg', root / 'doc/pictures/roller.svg')
     if shutil.which('xvfb-run'):
         subprocess.run(['xvfb-run', '-a', '/usr/bin/python3', root / 'tests/screenshot.py',
                         directory, root / 'doc/pictures/paraview.png'])
