@@ -1,4 +1,4 @@
-// What a run costs: the whole contact solve beside one plain factorisation and solve of the same
+// The cost of a run: the whole contact solve compared with one factorisation and solve of the same
 // matrix, in turn; the seconds of each phase and the peak memory on meshes from 1e3 to 1e6
 // unknowns. Tables in Markdown.
 #include "rollwave/base/memory.h"
@@ -50,11 +50,11 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
 /// Everything from ordering and triplets to the displacement field, without assembly.
 double contact_seconds(const Scene& scene, const Parameters& parameters) {
   const MeshAndSpace ring(scene, parameters); // whose order of elimination is yet to be found
-  Work work;
+  RunStatistics work;
   DirectSolver solver(ring.boundary);
   solver.set_problem(scene, ring.boundary, {}, work);
   {
-    const Work::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(work, "contact");
     const auto contact = active_set(solver, make_contact_problem(ring.boundary, scene), 100);
     solver.displacement_field(contact.state);
   }
@@ -89,7 +89,7 @@ void benchmark_phases(const PaperScene& paper, const std::vector<std::string>& m
   const Parameters parameters = with(paper.parameters(), mesh);
   const Result result = simulate(make_scene(parameters), parameters).result;
   std::printf("| %d | %u | %u |", paper.figure, parameters.mesh.degree, result.mesh.dofs);
-  for (const std::string& phase : Work::phase_names())
+  for (const std::string& phase : RunStatistics::phase_names())
     if (const auto seconds = result.work.seconds(phase))
       std::printf(" %s %.3g,", phase.c_str(), *seconds);
   std::printf(" | %.3g | %.0f |\n", result.work.total_seconds(), peak_memory_mib());

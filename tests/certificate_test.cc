@@ -107,7 +107,8 @@ TEST(Certificate, HoldsForHigherDegrees) {
 }
 
 // J of the contact-free solution lies between bounds that are round-off apart, in rings where that
-// is large beside the difference of the radii: J = -pi int_a^b G^2 / r dr with G = (b^2 - r^2)/2.
+// is large compared with the difference of the radii: J = -pi int_a^b G^2 / r dr with G = (b^2 -
+// r^2)/2.
 TEST(Certificate, HoldsToRoundOffInThinRings) {
   for (const double thickness : {1e-2, 1e-4, 1e-6, 1e-8})
     for (const char* degree : {"1", "2", "4", "8"}) {

@@ -28,7 +28,7 @@ public:
       : stiffness(stiffness), load(load) {}
 
   void set_problem(const Scene&, const ContactBoundary&, const std::optional<FieldVector>&,
-                   Work&) override {}
+                   RunStatistics&) override {}
   double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
     const unsigned int n = load.size();
     FullMatrix<double> matrix(n, n);
@@ -48,7 +48,7 @@ public:
     return 0;
   }
 
-  Vector<double> response(const Vector<double>&, double) override { return {}; }
+  Vector<double> apply_compliance(const Vector<double>&, double) override { return {}; }
   ContactState derivative(const std::vector<bool>&, const Vector<double>&, double) override {
     return {};
   }
@@ -98,7 +98,7 @@ struct FullCircle {
   Parameters parameters;
   Scene scene;
   MeshAndSpace ring;
-  Work work;
+  RunStatistics work;
   DirectSolver solver;
   ContactProblem problem;
 };
@@ -138,7 +138,7 @@ struct Prepared {
   Scene scene;
   MeshAndSpace ring;
   std::optional<FieldVector> load;
-  Work work;
+  RunStatistics work;
   DirectSolver solver;
   ContactProblem problem;
 };
@@ -161,7 +161,7 @@ TEST(Uzawa, AgreesWithTheActiveSetToItsTolerance) {
     }
 }
 
-// What Uzawa's method leaves at active nodes is not taken for an error of the mesh.
+// The remaining gap of Uzawa's method at active nodes does not count as an error of the mesh.
 TEST(Uzawa, RefinesTheCellsThatTheActiveSetRefines) {
   for (const PaperScene& paper : paper_scenes())
     for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"}) {

@@ -48,7 +48,7 @@ struct RandomMatrix {
 double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
   SparseCholesky cholesky(space);
   cholesky.number_unknowns(space.constraints());
-  Work work;
+  RunStatistics work;
   cholesky.analyse(cholesky.assemble(space.constraints(), stiffness_products(space, scene)), work);
   return cholesky.factor().n_factor_entries() / space.n_unknowns();
 }
@@ -166,7 +166,7 @@ protected:
   const Scene scene;
   const MeshAndSpace ring;
   const std::optional<FieldVector> load;
-  Work work;
+  RunStatistics work;
   DirectSolver solver;
 };
 

@@ -120,7 +120,7 @@ protected:
     return RunningProgram(arguments(assignments)).end();
   }
 
-  /// The files of a run, but for those under other than their final names.
+  /// The files of a run, without those under temporary names.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> contents;
     if (fs::exists(directory / "out"))
@@ -210,7 +210,7 @@ TEST_F(Faults, InterruptEndsAfterTheCurrentMesh) {
   };
   EXPECT_EXIT(simulate_interrupted({"Mesh/Adaptive cycles=3"}), testing::ExitedWithCode(2),
               " \\[1 [2-9] 1\\]");
-  // Nothing is missing where the last mesh is solved.
+  // The result is complete if the last mesh is solved.
   EXPECT_EXIT(simulate_interrupted({}), testing::ExitedWithCode(0), " \\[1 [2-9] 1\\]");
 }
 

@@ -34,7 +34,7 @@ struct Answer {
                               work)),
         result(measure(on_mesh)) {}
 
-  Work work;
+  RunStatistics work;
   MeshCache cache;
   MeshSolution on_mesh;
   Result result;
@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
                                  "Contact/Tolerance=1e-12"}));
 
 TEST(Iterative, CertifiesWhatTheDirectKindDoes) {
-  // A spot beside the seam: hanging nodes lie on it, which both problems tie in their own ways.
+  // A spot next to the seam: hanging nodes lie on it, which both problems tie in their own ways.
   for (const auto* degree : {"1", "2", "3"}) {
     SCOPED_TRACE(degree);
     const auto certified = [&](const std::string& kind) {
@@ -141,7 +141,7 @@ protected:
   const RingSpace& space;
   const ContactBoundary boundary;
   const std::optional<FieldVector> load;
-  Work direct_work, iterative_work;
+  RunStatistics direct_work, iterative_work;
   DirectSolver direct;
   IterativeSolver iterative;
   std::mt19937 random{5};
@@ -178,8 +178,8 @@ TEST_F(Kinds, AgreeOnTheCompliance) {
   Vector<double> force(boundary.size());
   for (double& nodal : force)
     nodal = value(random);
-  Vector<double> difference = iterative.response(force, 1e-12);
-  const Vector<double> response = direct.response(force, 0);
+  Vector<double> difference = iterative.apply_compliance(force, 1e-12);
+  const Vector<double> response = direct.apply_compliance(force, 0);
   difference -= response;
   EXPECT_LE(difference.linfty_norm(), 1e-10 * response.linfty_norm());
 }
@@ -196,7 +196,7 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
   EXPECT_GT(both, loose);
   EXPECT_EQ(iterative_work.preconditioners, 1u);
 
-  Work work;
+  RunStatistics work;
   IterativeSolver fresh(boundary);
   fresh.set_problem(scene, boundary, load, work);
   fresh.solve(pinned, state, 1e-11);
@@ -248,7 +248,7 @@ TEST_F(Kinds, AgreeOnTheChangeOfForces) {
 }
 
 TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
-  Work work;
+  RunStatistics work;
   const std::optional<FieldVector> no_load;
   IterativeSolver solver(boundary);
   solver.set_problem(scene, boundary, no_load, work);
@@ -281,7 +281,7 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
   const MeshAndSpace ring(scene, parameters);
   const std::optional<FieldVector> no_load;
-  Work work;
+  RunStatistics work;
   const SolverChoice choice =
       choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
   EXPECT_NE(dynamic_cast<const IterativeSolver*>(choice.solver.get()), nullptr);
@@ -300,7 +300,7 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheDenseProblemTakesLonger) {
                        "Mesh/Angular cells=3000"});
     const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
     const MeshAndSpace ring(scene, parameters);
-    Work work;
+    RunStatistics work;
     const std::optional<FieldVector> no_load;
     const SolverChoice choice =
         choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
@@ -325,7 +325,7 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
       constraints.add_line(boundary.contact_nodes()[i].dof);
   constraints.close();
 
-  Work work;
+  RunStatistics work;
   AmgCg solver(space);
   solver.set_matrix(constraints, stiffness_products(space, scene), work);
   const FieldVector rhs = random_load(space, constraints);

@@ -7,23 +7,23 @@ using namespace rollwave;
 
 namespace {
 
-Work work_of(std::vector<std::string> assignments) {
+RunStatistics work_of(std::vector<std::string> assignments) {
   assignments.insert(assignments.begin(), {"Mesh/Radial cells=4", "Mesh/Angular cells=60"});
   const Parameters parameters = parameters_of(assignments);
   return simulate(make_scene(parameters), parameters).result.work;
 }
 
-bool has_phase(const Work& work, const std::string& name) {
+bool has_phase(const RunStatistics& work, const std::string& name) {
   return work.seconds(name).has_value();
 }
 
 TEST(LeaveOut, NoLoadWithoutForce) {
   const std::string no_certificate = "Certificate/Error bound=false";
-  const Work without = work_of({no_certificate});
+  const RunStatistics without = work_of({no_certificate});
   EXPECT_EQ(without.load_assemblies, 0u);
   EXPECT_EQ(without.forward_substitutions, 0u);
   EXPECT_EQ(without.back_substitutions, 1u);
-  const Work with_force = work_of({no_certificate, "Cylinder/Radial force=1"});
+  const RunStatistics with_force = work_of({no_certificate, "Cylinder/Radial force=1"});
   EXPECT_EQ(with_force.load_assemblies, 1u);
   EXPECT_EQ(with_force.forward_substitutions, 1u);
   EXPECT_EQ(with_force.back_substitutions, 1u);
@@ -31,7 +31,7 @@ TEST(LeaveOut, NoLoadWithoutForce) {
 
 TEST(LeaveOut, OneFactorisationForEachMeshHoweverManyContactSteps) {
   for (const char* method : {"Contact/Method=active set", "Contact/Method=uzawa"}) {
-    const Work work = work_of({"Certificate/Error bound=false", method});
+    const RunStatistics work = work_of({"Certificate/Error bound=false", method});
     EXPECT_EQ(work.stiffness_assemblies, 1u);
     EXPECT_EQ(work.orderings, 1u);
     EXPECT_EQ(work.factorisations, 1u);
@@ -48,26 +48,27 @@ TEST(LeaveOut, NoContactLoopWhenTheFreeSolutionIsFeasible) {
 }
 
 TEST(LeaveOut, CertificateAndIndicatorAreForThoseWhoAsk) {
-  const Work plain = work_of({"Certificate/Error bound=false"});
+  const RunStatistics plain = work_of({"Certificate/Error bound=false"});
   EXPECT_FALSE(has_phase(plain, "certificate"));
   EXPECT_FALSE(has_phase(plain, "indicator"));
   EXPECT_FALSE(has_phase(plain, "preconditioner"));
 
-  const Work certified = work_of({});
+  const RunStatistics certified = work_of({});
   EXPECT_TRUE(has_phase(certified, "certificate"));
   EXPECT_EQ(certified.factorisations, 2u);
   EXPECT_FALSE(has_phase(certified, "indicator"));
 
   // Each of three meshes has a stiffness matrix and, where it is certified, a stress function.
-  const Work by_certificate = work_of({"Mesh/Adaptive cycles=2"});
+  const RunStatistics by_certificate = work_of({"Mesh/Adaptive cycles=2"});
   EXPECT_EQ(by_certificate.stiffness_assemblies, 3u);
   EXPECT_EQ(by_certificate.factorisations, 6u);
-  const Work by_kelly = work_of({"Mesh/Adaptive cycles=2", "Certificate/Error bound=false"});
+  const RunStatistics by_kelly =
+      work_of({"Mesh/Adaptive cycles=2", "Certificate/Error bound=false"});
   EXPECT_EQ(by_kelly.factorisations, 3u);
   EXPECT_FALSE(has_phase(by_kelly, "certificate"));
 
   // Two more road distances cost no factorisation.
-  const Work bounded = work_of({"Certificate/Load bounds=true"});
+  const RunStatistics bounded = work_of({"Certificate/Load bounds=true"});
   EXPECT_EQ(bounded.factorisations, 2u);
   EXPECT_EQ(bounded.stiffness_assemblies, 1u);
 }

@@ -58,7 +58,7 @@ protected:
       const Outcome many = shell(on_processes(n) + "$rollwave " + arguments + " --output '" +
                                  (directory / "out").string() + "'");
       ASSERT_EQ(many.exit_code, 0) << many.text;
-      EXPECT_EQ(many.text.find("Result"), many.text.rfind("Result")) << "told more than once";
+      EXPECT_EQ(many.text.find("Result"), many.text.rfind("Result")) << "printed more than once";
       const auto summary = nlohmann::json::parse(read("summary.json"));
       rollwave::expect_same_quantities(rollwave::quantities_of(summary),
                                        rollwave::quantities_of(expected),
@@ -103,7 +103,7 @@ TEST_F(Processes, MayBeMoreThanCells) {
                        {6});
 }
 
-// Strips of one column or none, and cells beside them that are the same on both sides.
+// Strips of one column or none, and cells next to them that are the same on both sides.
 TEST_F(Processes, MayBeMoreThanColumns) {
   expect_answer_of_one(scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' "
                                "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'",
@@ -236,7 +236,7 @@ protected:
             << "run " << run;
   }
 
-  /// Writes rank.sh, which runs a study of 300 meshes with @p settings and tells it to end once the
+  /// Writes rank.sh, which runs a study of 300 meshes with @p settings and interrupts it once the
   /// first of its rows is in the table: long before the last, however fast the machine.
   void write_interrupted_study(const std::string& settings) const {
     std::string cells = "400";

@@ -19,7 +19,7 @@ struct Outcome {
   std::string text; ///< both streams
 };
 
-/// The exit code as a shell tells it, from what wait() and pclose() return.
+/// The exit code as a shell reports it, from what wait() and pclose() return.
 inline int exit_code_of(int status) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }

@@ -189,7 +189,7 @@ TEST_F(Program, PrintsHelpVersionAndParameters) {
                   (directory / "out").string() + "'")
                 .exit_code,
             0);
-  // Of a file they are those of a run of it.
+  // For a file they are those of a run of it.
   const std::string settings = " --set 'Road/Distance=0.9'";
   const std::string complete = shell("$rollwave --parameters " + scene + settings).text;
   ASSERT_EQ(shell("$rollwave " + scene + settings).exit_code, 0);
@@ -337,7 +337,7 @@ TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {
     }
   for (unsigned int i = 1; i < cycles.size(); ++i)
     EXPECT_LE(cycles[i]["contact_steps"], 4);
-  // What cannot be reached is told, and what was reached is kept.
+  // The result that was reached is kept, and the missing target reported.
   const Outcome limited = shell(wanted + " --set 'Mesh/Adaptive cycles=1'");
   EXPECT_EQ(limited.exit_code, 2) << limited.text;
   json = nlohmann::json::parse(read("summary.json"));

@@ -8,8 +8,8 @@
 
 namespace rollwave {
 
-/// All that summary.json says of a solution, by path, such as /contact/patches/0/length. Left out
-/// is what tells of the way to it: work, times, memory, iterations, remarks.
+/// The numbers of summary.json that describe a solution, by path, such as
+/// /contact/patches/0/length: all except work, times, memory, iterations and remarks.
 nlohmann::json quantities_of(const nlohmann::json& summary);
 
 /// How far the number of a path may be from the expected one.

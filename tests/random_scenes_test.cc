@@ -145,7 +145,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      Work work;
+      RunStatistics work;
       Solution solution = simulate(
           Discretisation(scene, parameters, MPI_COMM_SELF, work, scene.zone()), scene, parameters);
       const Result& result = solution.result;

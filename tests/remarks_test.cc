@@ -73,9 +73,9 @@ TEST(Remarks, TellWhatTheWantedErrorNeeds) {
   const std::string before = "0.0002 needs about ";
   const auto place = text.find(before);
   ASSERT_NE(place, std::string::npos) << text;
-  const double foretold = std::stod(text.substr(place + before.size()));
-  EXPECT_LT(foretold, 2 * reached.mesh.dofs);
-  EXPECT_GT(foretold, reached.mesh.dofs / 3.);
+  const double predicted = std::stod(text.substr(place + before.size()));
+  EXPECT_LT(predicted, 2 * reached.mesh.dofs);
+  EXPECT_GT(predicted, reached.mesh.dofs / 3.);
 }
 
 TEST(Remarks, TellWhenTheBoundSaysNothing) {

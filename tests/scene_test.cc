@@ -177,7 +177,7 @@ TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
   for (const double unevenness : {0, 1}) {
     const Result original = simulate(slanted(0, unevenness), adaptive).result;
     const CertifiedError& bounds = *original.certified;
-    // What the bounds add for an uneven force depends on its panels, which do not turn.
+    // The part of the bounds for an uneven force depends on the cells, which do not turn.
     const double tolerance = unevenness == 0 ? 1e-12 * std::abs(original.energy.value)
                                              : 1e-3 * (bounds.upper_bound - bounds.lower_bound);
     for (const int cells : {17, 20}) {

@@ -59,7 +59,7 @@ TEST(Stability, AnyUnitOfLengthGivesTheSameScene) {
 }
 
 TEST(Stability, BiactiveContactIsSolved) {
-  // u = phi without pressure on stretches of 0.2 beside the contact.
+  // u = phi without pressure on stretches of 0.2 next to the contact.
   const GegenbauerPressure pressure(4.7, 0.4, 1, {0.3, 0.05});
   for (const double omega : {0.5, 1.}) {
     const double end_exponent = 0.5;

@@ -81,7 +81,7 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
     const Vector<double> force = problem.forces(pressure);
     // The quotient below errs by the square of this.
-    const Vector<double> response = solver.response(force, 1e-6);
+    const Vector<double> response = solver.apply_compliance(force, 1e-6);
     double work = 0, norm_squared = 0, largest = 0;
     for (unsigned int i = 0; i < problem.size(); ++i) {
       work += force(i) * response(i);

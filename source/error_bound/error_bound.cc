@@ -1,6 +1,6 @@
 #include "rollwave/error_bound/error_bound.h"
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/error_bound/admissible_pressure.h"
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/stress_function.h"
@@ -227,8 +227,8 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
                     const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, Work& work) {
-  const Work::Phase phase(work, "certificate");
+                    StressFunction& stress_function, RunStatistics& work) {
+  const RunStatistics::Phase phase(work, "certificate");
   const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);

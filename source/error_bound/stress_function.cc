@@ -1,6 +1,6 @@
 #include "rollwave/error_bound/stress_function.h"
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/solver/amg_cg.h"
@@ -168,7 +168,7 @@ AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& 
 } // namespace
 
 StressFunction::StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
-                               Work& work)
+                               RunStatistics& work)
     : space(space), speed(scene.angular_velocity),
       radial(scene, space.dof_handler().get_fe().degree) {
   if (kind == SolverKind::iterative)
@@ -186,7 +186,7 @@ RadialProducts StressFunction::products() {
 }
 
 FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                                  const ForceIntegral* force, Work& work) {
+                                  const ForceIntegral* force, RunStatistics& work) {
   const auto constraints = make_constraints(space, scene, pressures);
   const Vector<double> no_load(space.dof_handler().get_fe().n_dofs_per_cell());
   FieldVector load = space.make_field();

@@ -17,7 +17,8 @@ using namespace dealii;
 
 namespace {
 
-/// Of a node, (radial, angular) in units of coarse cells: exact in binary arithmetic on mesh lines.
+/// The position of a node, (radial, angular) in units of coarse cells: exact in binary arithmetic
+/// on mesh lines.
 using Place = std::array<double, 2>;
 
 struct Node {

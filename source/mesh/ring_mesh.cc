@@ -49,7 +49,7 @@ std::vector<double> angles_of(const Scene& scene, int n) {
   }
   const int n_zone = std::clamp<int>(
       std::lround(n * (scene.zone_end - scene.zone_begin) / (2 * numbers::PI)), 1, n - 2);
-  // What is left is shared by both sides, so that mirrored zones have mirrored meshes.
+  // Both sides share the remaining columns, so that mirrored zones have mirrored meshes.
   const double before = scene.zone_begin - seam_angle, behind = end - scene.zone_end;
   const int n_before =
       std::clamp<int>(std::lround((n - n_zone) * before / (before + behind)), 1, n - n_zone - 1);

@@ -88,12 +88,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   const Scene& scene = solution.scene;
   const Result& result = solution.result;
   WrittenFiles written;
-  Work& work = solution.result.work;
+  RunStatistics& work = solution.result.work;
   const MPI_Comm communicator = solution.space().communicator();
   const bool is_first = process_number(communicator) == 0;
   std::exception_ptr failure;
   {
-    const Work::Phase phase(work, "output");
+    const RunStatistics::Phase phase(work, "output");
     if (is_first)
       write_parameters(directory, parameters, written);
     if (parameters.wants(OutputFile::contact) && is_first)

@@ -164,7 +164,7 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
   const double zoom = zoom_of(scene, result);
-  // Of the frame of the zoom, which has 0.40 of the width and 0.25 of the height.
+  // The frame of the zoom has 0.40 of the width and 0.25 of the height.
   const double ratio = (0.25 * height) / (0.40 * width);
   std::ostringstream script;
   script.precision(12);

@@ -80,7 +80,10 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
   range("Certified  J(u) from ", certified.lower_bound, certified.upper_bound, Quantity::energy);
   out << ", error in the energy norm at most " << std::setprecision(3)
       << certified.energy_norm * units.of(Quantity::energy_norm)
-      << units.after(Quantity::energy_norm) << ", relative " << certified.relative << '\n';
+      << units.after(Quantity::energy_norm)
+      << (std::isfinite(certified.relative) ? ", relative " + rounded(certified.relative, 3)
+                                            : std::string(", no relative bound"))
+      << '\n';
   if (certified.sampled_width > 0)
     out << "           features of the force smaller than "
         << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
@@ -267,9 +270,9 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   }
 }
 
-void report_end(std::ostream& out, const Work& work, const WrittenFiles& written) {
+void report_end(std::ostream& out, const RunStatistics& work, const WrittenFiles& written) {
   out << "\nSeconds\n" << std::fixed << std::setprecision(3);
-  for (const std::string& phase : Work::phase_names())
+  for (const std::string& phase : RunStatistics::phase_names())
     if (const auto seconds = work.seconds(phase))
       out << "  " << std::left << std::setw(20) << phase << std::right << std::setw(9) << *seconds
           << '\n';

@@ -15,7 +15,7 @@ namespace {
 /// The certified bounds of E at another distance, on the same mesh.
 Bounds certified_energy(const RunOptions& options, const ContactBoundary& candidates,
                         const MeshSolution& solution, double distance, MeshCache& cache,
-                        Work& work) {
+                        RunStatistics& work) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
   const MeshSolution there =
@@ -39,7 +39,7 @@ double best_step(const Scene& scene, const CertifiedError& error, double stiffne
 
 Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
                   const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
-                  Work& work) {
+                  RunStatistics& work) {
   const auto energy = [&](double distance) {
     return certified_energy(options, candidates, solution, distance, cache, work);
   };
@@ -53,7 +53,7 @@ Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
 
 std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
                                      const MeshSolution& solution, const CertifiedError& error,
-                                     MeshCache& cache, Work& work) {
+                                     MeshCache& cache, RunStatistics& work) {
   const auto energy = [&](double distance) {
     return certified_energy(options, candidates, solution, distance, cache, work);
   };

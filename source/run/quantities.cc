@@ -199,17 +199,20 @@ Quantities work_quantities() {
     all.push_back({"work." + name, words, "", Quantity::count, 0, all_digits,
                    [count](const Result& r) { return r.work.*count; }});
   };
-  add_count("load_assemblies", "assemblies of the load", &Work::load_assemblies);
-  add_count("stiffness_assemblies", "assemblies of the stiffness", &Work::stiffness_assemblies);
-  add_count("orderings", "symbolic analyses of sparse matrices", &Work::orderings);
-  add_count("factorisations", "factorisations of sparse matrices", &Work::factorisations);
+  add_count("load_assemblies", "assemblies of the load", &RunStatistics::load_assemblies);
+  add_count("stiffness_assemblies", "assemblies of the stiffness",
+            &RunStatistics::stiffness_assemblies);
+  add_count("orderings", "symbolic analyses of sparse matrices", &RunStatistics::orderings);
+  add_count("factorisations", "factorisations of sparse matrices", &RunStatistics::factorisations);
   add_count("dense_factorisations", "factorisations of dense matrices",
-            &Work::dense_factorisations);
-  add_count("forward_substitutions", "forward substitutions", &Work::forward_substitutions);
-  add_count("back_substitutions", "back substitutions", &Work::back_substitutions);
-  add_count("preconditioners", "preconditioners set up", &Work::preconditioners);
-  add_count("bytes_written", "bytes written except those of summary.json", &Work::bytes_written);
-  for (const std::string& phase : Work::phase_names())
+            &RunStatistics::dense_factorisations);
+  add_count("forward_substitutions", "forward substitutions",
+            &RunStatistics::forward_substitutions);
+  add_count("back_substitutions", "back substitutions", &RunStatistics::back_substitutions);
+  add_count("preconditioners", "preconditioners set up", &RunStatistics::preconditioners);
+  add_count("bytes_written", "bytes written except those of summary.json",
+            &RunStatistics::bytes_written);
+  for (const std::string& phase : RunStatistics::phase_names())
     all.push_back({"seconds." + phase, "seconds of the phase " + phase, "", Quantity::number, 0, 3,
                    [phase](const Result& r) { return r.work.seconds(phase); }});
   all.push_back({"seconds.total", "seconds", "seconds", Quantity::number, Shown::table, 3,

@@ -33,7 +33,7 @@ namespace {
 
 /// The certificate of a solution, where it is wanted and does not fail.
 std::optional<Certificate> certify_solution(const RunOptions& options, Discretisation& mesh,
-                                            MeshSolution& solution, Work& work) {
+                                            MeshSolution& solution, RunStatistics& work) {
   std::optional<Certificate> certificate;
   const auto compute = [&] {
     certificate = certify(solution.boundary, solution.scene, solution.problem, solution.contact,
@@ -50,8 +50,8 @@ std::optional<Certificate> certify_solution(const RunOptions& options, Discretis
 /// eta_K of each active cell: its share of the bound or, without a bound, Kelly's indicator.
 std::vector<double> indicate(const RunOptions& options, const Discretisation& mesh,
                              const MeshSolution& solution,
-                             const std::optional<Certificate>& certificate, Work& work) {
-  const Work::Phase phase(work, "indicator");
+                             const std::optional<Certificate>& certificate, RunStatistics& work) {
+  const RunStatistics::Phase phase(work, "indicator");
   if (certificate && options.mesh.indicator == Indicator::certificate)
     return certificate->cell_bounds;
   return kelly_indicator(*mesh.space, solution.displacement);
@@ -105,7 +105,7 @@ std::string interrupted_text(unsigned int n_meshes) {
 
 /// Bounds the work-conjugate load or, where that is given, the distance.
 void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
-                  const CertifiedError& error, Work& work, Result& result) {
+                  const CertifiedError& error, RunStatistics& work, Result& result) {
   const auto& load = solution.scene.load;
   if (solution.scene.road.curvature > 0)
     result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
@@ -138,7 +138,7 @@ void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolu
 /// The solution of a run from that on its last mesh.
 Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
-                bool is_interrupted, Work work) {
+                bool is_interrupted, RunStatistics work) {
   Result result = measure(last);
   result.cycles = std::move(cycles);
   result.is_interrupted = is_interrupted;
@@ -160,7 +160,7 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
 /// @param pressure to start from
 Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& options,
-                          PressureProfile pressure, Work work, const Progress& progress,
+                          PressureProfile pressure, RunStatistics work, const Progress& progress,
                           std::vector<CycleFigures>& cycles) {
   for (;;) {
     MeshSolution solution =
@@ -210,7 +210,7 @@ struct Start {
 /// Solves on a coarser mesh. The scene as it is, without a pressure, where that is too coarse, such
 /// as for a short zone.
 Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                    Work& work) {
+                    RunStatistics& work) {
   try {
     const RunOptions coarse = coarser(options);
     Discretisation mesh(scene, coarse, communicator, work);
@@ -228,8 +228,8 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
 
 } // namespace
 
-Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options, Work work,
-                  const Progress& progress) {
+Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
+                  RunStatistics work, const Progress& progress) {
   const MPI_Comm communicator = mesh.communicator();
   check_simulation(options, count_processes(communicator));
   Start start = {scene, {}};
@@ -253,7 +253,7 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
 Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                   const Progress& progress) {
   check_simulation(options, count_processes(communicator));
-  Work work(progress.phase_ended);
+  RunStatistics work(progress.phase_ended);
   Discretisation mesh(scene, options, communicator, work);
   return simulate(std::move(mesh), scene, options, std::move(work), progress);
 }

@@ -56,12 +56,12 @@ void require_finite(double squared, const std::string& what) {
 }
 
 /// Makes the force and the load of @p cache those of the scene.
-void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, Work& work) {
+void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, RunStatistics& work) {
   if (!scene.force) {
     cache.force.reset();
     cache.load.reset();
   } else if (!cache.load || cache.force_text != scene.force.text) {
-    const Work::Phase phase(work, "assembly");
+    const RunStatistics::Phase phase(work, "assembly");
     RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
     cache.force = std::make_unique<ForceIntegral>(space, scene, shapes);
     cache.load = assemble_load(space, *cache.force, shapes);
@@ -144,7 +144,7 @@ PressureProfile pressure_profile(const MeshSolution& solution) {
 
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, Work& work) {
+                           MeshCache& cache, RunStatistics& work) {
   const RingSpace& space = candidates.space();
   MeshSolution solution = {scene, ContactBoundary(space, scene.zone())};
   const ContactBoundary& boundary = solution.boundary;
@@ -158,17 +158,17 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
   if (!cache.stiffness.remark.empty())
     solution.remarks.push_back(cache.stiffness.remark);
   {
-    const Work::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(work, "contact");
     solve_contact_on(options, start, solver, solution);
   }
   solution.displacement = solver.displacement_field(solution.contact.state);
   Loads stiffness;
   {
-    const Work::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(work, "contact");
     stiffness = contact_stiffness(solver, boundary, solution.scene, solution.problem,
                                   solution.contact, options.contact.most_steps);
   }
-  const Work::Phase phase(work, "measurement");
+  const RunStatistics::Phase phase(work, "measurement");
   solution.resultants =
       measure_contact(solution.scene, boundary.contact_nodes(), solution.problem, solution.contact);
   solution.resultants.stiffness = stiffness;

@@ -39,7 +39,7 @@ struct Unpinned {
 } // namespace
 
 void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const RadialProducts& radial,
-                       Work& /*work*/) {
+                       RunStatistics& /*work*/) {
   preconditioner.reset();
   const IndexSet& owned = space.dof_handler().locally_owned_dofs();
   TrilinosWrappers::SparsityPattern pattern(owned, owned, space.relevant_dofs(),
@@ -64,7 +64,7 @@ void AmgCg::pin(const IndexSet& dofs) {
   pinned = dofs;
 }
 
-FieldVector AmgCg::solve(const FieldVector& rhs, Work& work) {
+FieldVector AmgCg::solve(const FieldVector& rhs, RunStatistics& work) {
   constexpr double accuracy = 1e-11;
   FieldVector u = space.make_field();
   const double size = rhs.l2_norm();
@@ -73,9 +73,9 @@ FieldVector AmgCg::solve(const FieldVector& rhs, Work& work) {
   return u;
 }
 
-const BoomerAmg& AmgCg::multigrid(Work& work) {
+const BoomerAmg& AmgCg::multigrid(RunStatistics& work) {
   if (!preconditioner) {
-    const Work::Phase phase(work, "preconditioner");
+    const RunStatistics::Phase phase(work, "preconditioner");
     preconditioner.emplace(stiffness, pinned, space.communicator());
     ++work.preconditioners;
   }
@@ -91,7 +91,7 @@ double AmgCg::residual_norm(const FieldVector& u, const FieldVector& rhs) const 
 }
 
 double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
-                      Work& work) {
+                      RunStatistics& work) {
   FieldVector unpinned_rhs = rhs;
   clear(pinned, unpinned_rhs);
   double given = unpinned_rhs.linfty_norm();
@@ -112,7 +112,7 @@ double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale
   }
 }
 
-void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted, Work& work) {
+void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted, RunStatistics& work) {
   constexpr unsigned int most_iterations = 5000;
   SolverControl control(most_iterations, wanted, /*log_history=*/false, /*log_result=*/false);
   try {

@@ -18,7 +18,7 @@ namespace {
 /// @throws NotEnoughMemory, whatever has noticed it
 std::unique_ptr<ContactLinearSolver>
 make_direct(const ContactBoundary& candidates, const Scene& scene, const ContactBoundary& boundary,
-            const std::optional<FieldVector>& load, Work& work) {
+            const std::optional<FieldVector>& load, RunStatistics& work) {
   try {
     auto solver = std::make_unique<DirectSolver>(candidates);
     solver->set_problem(scene, boundary, load, work);
@@ -41,7 +41,7 @@ bool is_dense_part_slow(const ContactBoundary& candidates) {
 
 SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
                            const ContactBoundary& boundary, const std::optional<FieldVector>& load,
-                           Work& work) {
+                           RunStatistics& work) {
   SolverChoice choice;
   if (!is_serial(candidates.space().communicator())) {
     AssertThrow(kind != SolverKind::direct, ExcInternalError());

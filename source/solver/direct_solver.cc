@@ -17,20 +17,20 @@ void DirectSolver::factorise(const Scene& scene) {
   factor.reinit(0);
   schur.reinit(0);
   {
-    const Work::Phase phase(*work, "ordering");
+    const RunStatistics::Phase phase(*work, "ordering");
     cholesky.number_unknowns(space.constraints());
   }
   {
     LowerTriplets triplets;
     {
-      const Work::Phase phase(*work, "assembly");
+      const RunStatistics::Phase phase(*work, "assembly");
       triplets = cholesky.assemble(space.constraints(), stiffness_products(space, scene));
       ++work->stiffness_assemblies;
     }
-    const Work::Phase phase(*work, "ordering");
+    const RunStatistics::Phase phase(*work, "ordering");
     cholesky.analyse(triplets, *work);
   }
-  const Work::Phase phase(*work, "factorisation");
+  const RunStatistics::Phase phase(*work, "factorisation");
   cholesky.factorise(*work);
   const unsigned int m = candidates.size();
   factor.reinit(m);
@@ -42,7 +42,7 @@ void DirectSolver::factorise(const Scene& scene) {
 }
 
 void DirectSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
-                               const std::optional<FieldVector>& load, Work& work) {
+                               const std::optional<FieldVector>& load, RunStatistics& work) {
   const auto first = candidates.contact_number(boundary.first_surface_node());
   AssertThrow(first && *first + boundary.size() <= candidates.size(), ExcInternalError());
   this->boundary = boundary;
@@ -50,7 +50,7 @@ void DirectSolver::set_problem(const Scene& scene, const ContactBoundary& bounda
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
 
-  const Work::Phase phase(work, "contact");
+  const RunStatistics::Phase phase(work, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
@@ -78,7 +78,7 @@ Vector<double> DirectSolver::on_contact(const Vector<double>& values) const {
   return Vector<double>(first, first + boundary.size());
 }
 
-Vector<double> DirectSolver::response(const Vector<double>& force, double /*accuracy*/) {
+Vector<double> DirectSolver::apply_compliance(const Vector<double>& force, double /*accuracy*/) {
   Vector<double> displacement = on_candidates(force);
   divide_by_schur(displacement);
   return on_contact(displacement);
@@ -150,7 +150,7 @@ ContactState DirectSolver::derivative(const std::vector<bool>& pinned,
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
-  const Work::Phase phase(*work, "back-substitution");
+  const RunStatistics::Phase phase(*work, "back-substitution");
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.

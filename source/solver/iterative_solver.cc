@@ -11,13 +11,13 @@ namespace rollwave {
 using namespace dealii;
 
 void IterativeSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
-                                  const std::optional<FieldVector>& load, Work& work) {
+                                  const std::optional<FieldVector>& load, RunStatistics& work) {
   this->boundary = boundary;
   this->load = &load;
   this->work = &work;
   if (angular_velocity == scene.angular_velocity)
     return;
-  const Work::Phase phase(work, "assembly");
+  const RunStatistics::Phase phase(work, "assembly");
   angular_velocity.reset();
   system.set_matrix(space.constraints(), stiffness_products(space, scene), work);
   ++work.stiffness_assemblies;
@@ -76,7 +76,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector
   return residual;
 }
 
-Vector<double> IterativeSolver::response(const Vector<double>& force, double accuracy) {
+Vector<double> IterativeSolver::apply_compliance(const Vector<double>& force, double accuracy) {
   const auto& nodes = boundary.contact_nodes();
   system.pin(IndexSet(space.dof_handler().n_dofs()));
   FieldVector rhs = space.make_field(), u = space.make_field();

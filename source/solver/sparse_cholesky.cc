@@ -53,7 +53,7 @@ LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constrai
   return triplets;
 }
 
-void SparseCholesky::analyse(const LowerTriplets& triplets, Work& work) {
+void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& work) {
   const bool is_first = cholesky->n_factor_entries() == 0;
   cholesky->set_matrix(triplets);
   if (!is_first) // later factors take the place of the one before
@@ -68,19 +68,19 @@ void SparseCholesky::analyse(const LowerTriplets& triplets, Work& work) {
                                     std::to_string(last.size()) + " contact nodes");
 }
 
-void SparseCholesky::factorise(Work& work) {
+void SparseCholesky::factorise(RunStatistics& work) {
   cholesky->factorise();
   ++work.factorisations;
 }
 
 void SparseCholesky::set_matrix(const AffineConstraints<double>& constraints,
-                                const RadialProducts& radial, Work& work) {
+                                const RadialProducts& radial, RunStatistics& work) {
   number_unknowns(constraints);
   analyse(assemble(constraints, radial), work);
   factorise(work);
 }
 
-FieldVector SparseCholesky::solve(const FieldVector& rhs, Work& work) {
+FieldVector SparseCholesky::solve(const FieldVector& rhs, RunStatistics& work) {
   ++work.forward_substitutions;
   ++work.back_substitutions;
   return scatter(cholesky->backward(cholesky->forward(gather(rhs))));

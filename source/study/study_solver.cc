@@ -108,7 +108,7 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   const auto zone = widest_zone.find(key);
   if (zone == widest_zone.end())
     return simulate(scene, plan.parameters, communicator);
-  Work work;
+  RunStatistics work;
   if (!mesh)
     mesh.emplace(scene, plan.parameters, communicator, work, zone->second);
   Solution shared = simulate(std::move(*mesh), scene, plan.parameters, std::move(work));

@@ -10,7 +10,7 @@ namespace rollwave {
 struct Scene;
 class ForceIntegral;
 class StressFunction;
-class Work;
+class RunStatistics;
 
 /// Section `Certificate`.
 struct CertificateOptions {
@@ -42,7 +42,7 @@ struct CertifiedError {
  *
  * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2.
  *
- * v is the discrete displacement but for the cells at the surface, where the correction c(z) of
+ * v is the discrete displacement except in the cells at the surface, where the correction c(z) of
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
  * a StressFunction psi, in terms of which the first integral is
  *
@@ -70,7 +70,7 @@ struct Certificate {
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
                     const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, Work& work);
+                    StressFunction& stress_function, RunStatistics& work);
 
 } // namespace rollwave
 

@@ -71,7 +71,8 @@ struct RadialShapes {
   /// orthonormal on [0, 1], that they determine.
   std::vector<double> highest_mode;
 
-  /// Of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds d/ds ds
+  /// Matrices of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds
+  /// d/ds ds
   ShapeProducts products;
 
   /// int w X_i, X_i one of the functions of each shape, by @p weights, for w at the points.

@@ -15,7 +15,7 @@
 namespace rollwave {
 
 struct Scene;
-class Work;
+class RunStatistics;
 
 /**
  * The potential psi of a flux tau that balances the force and a contact pressure lambda,
@@ -37,7 +37,7 @@ public:
   /// it.
   /// @param kind direct or iterative
   /// @throws NotSolved when memory is short
-  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind, Work& work);
+  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind, RunStatistics& work);
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
   /// @param pressures one for each of RingSpace::surface_faces()
@@ -45,7 +45,7 @@ public:
   /// periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                    const ForceIntegral* force, Work& work);
+                    const ForceIntegral* force, RunStatistics& work);
 
   double angular_velocity() const { return speed; }
 

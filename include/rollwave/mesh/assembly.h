@@ -42,7 +42,7 @@ void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
  *     K_ij = int r (alpha d_z phi_i d_z phi_j + d_r phi_i d_r phi_j) dr dz,
  *     alpha = 1/r^2 - omega^2,
  *
- * exact but for round-off, by Gauss' rules with as many points as the factor 1/r needs
+ * exact except for round-off, by Gauss' rules with as many points as the factor 1/r needs
  * (graded_rule()).
  */
 RadialProducts stiffness_products(const RingSpace& space, const Scene& scene);

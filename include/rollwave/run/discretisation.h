@@ -27,7 +27,7 @@ struct MeshCache {
   std::string force_text;               ///< of the scene that force and load belong to
 
   /// Makes the dual problem that of a scene. @throws as StressFunction
-  StressFunction& dual_of(const Scene& scene, const RingSpace& space, Work& work);
+  StressFunction& dual_of(const Scene& scene, const RingSpace& space, RunStatistics& work);
 };
 
 /// A mesh with its space and its matrices; the members are listed in the order of their dependence.
@@ -36,7 +36,8 @@ struct Discretisation {
   /// @param shared_zone where several scenes are solved on it, so that its matrices are kept: one
   /// that holds the zones of all of them
   /// @throws BadInput for a mesh without a node in the zone of possible contact
-  Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator, Work& work,
+  Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                 RunStatistics& work,
                  const std::optional<std::pair<double, double>>& shared_zone = {});
 
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
@@ -52,7 +53,7 @@ struct Discretisation {
   /// to the old mesh. Returns false, and changes nothing, where the mesh would get too large or no
   /// cell is marked.
   bool refine(const std::vector<double>& indicators, const Scene& scene, const RunOptions& options,
-              Work& work);
+              RunStatistics& work);
 };
 
 /// The most cells that RefinementOptions::most_unknowns allow.

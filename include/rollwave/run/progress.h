@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_RUN_PROGRESS_H
 #define ROLLWAVE_RUN_PROGRESS_H
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/run/result.h"
 
 #include <functional>
@@ -10,7 +10,7 @@ namespace rollwave {
 
 /// Functions that a run calls while it lasts; each may be empty.
 struct Progress {
-  Work::Observer phase_ended;
+  RunStatistics::Observer phase_ended;
 
   /// Called when a mesh of an adaptive run has been solved. @param number from 1 on
   std::function<void(unsigned int number, const CycleFigures& mesh)> mesh_solved;

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_RUN_RESULT_H
 #define ROLLWAVE_RUN_RESULT_H
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/scene/units.h"
@@ -112,7 +112,7 @@ struct Result {
   bool is_interrupted = false; ///< by the user: the shortfalls say after what
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
-  Work work;
+  RunStatistics work;
   double peak_memory_mib = 0; ///< the largest of all processes
 };
 

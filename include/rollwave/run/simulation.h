@@ -48,7 +48,7 @@ Solution simulate(const Scene& scene, const RunOptions& options,
 /// radii: only what depends on speed, force and zone is computed again where these differ.
 /// @param work the cost of the mesh, where it counts
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  Work work = Work(), const Progress& progress = {});
+                  RunStatistics work = RunStatistics(), const Progress& progress = {});
 
 } // namespace rollwave
 

@@ -18,7 +18,7 @@ namespace rollwave {
  */
 class BoomerAmg {
 public:
-  /// Of the rows and columns of @p pinned degrees of freedom the diagonal entry counts only.
+  /// Only the diagonal entry counts in the rows and columns of @p pinned degrees of freedom.
   /// @throws NotSolved when the hierarchy cannot be made.
   BoomerAmg(const dealii::TrilinosWrappers::SparseMatrix& matrix, const dealii::IndexSet& pinned,
             MPI_Comm communicator);

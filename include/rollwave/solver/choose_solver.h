@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
 #define ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/solver/contact_linear_solver.h"
 
 #include <memory>
@@ -41,7 +41,7 @@ struct SolverChoice {
 /// @throws NotSolved as the kinds do.
 SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
                            const ContactBoundary& boundary, const std::optional<FieldVector>& load,
-                           Work& work);
+                           RunStatistics& work);
 
 } // namespace rollwave
 

@@ -11,7 +11,7 @@
 namespace rollwave {
 
 struct Scene;
-class Work;
+class RunStatistics;
 
 /// The state of the contact nodes, in the order of ContactBoundary::contact_nodes().
 struct ContactState {
@@ -40,7 +40,7 @@ public:
   /// when it is zero; it and @p work must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
   virtual void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                           const std::optional<FieldVector>& load, Work& work) = 0;
+                           const std::optional<FieldVector>& load, RunStatistics& work) = 0;
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.
@@ -52,7 +52,8 @@ public:
   /// The displacement C N of the contact nodes towards the hub when nodal forces N push on them and
   /// nothing else does: C is the compliance, the inverse of the Schur complement of these nodes.
   /// @p accuracy is as for solve().
-  virtual dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) = 0;
+  virtual dealii::Vector<double> apply_compliance(const dealii::Vector<double>& force,
+                                                  double accuracy) = 0;
 
   /// The derivative of solve() by the displacement given: the change of the state when the pinned
   /// nodes move by @p displacement, the forces on the others and the load staying as they are.

@@ -28,9 +28,10 @@ public:
         cholesky(space, candidates.contact_nodes()) {}
 
   void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                   const std::optional<FieldVector>& load, Work& work) override;
+                   const std::optional<FieldVector>& load, RunStatistics& work) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
-  dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
+  dealii::Vector<double> apply_compliance(const dealii::Vector<double>& force,
+                                          double accuracy) override;
   ContactState derivative(const std::vector<bool>& pinned,
                           const dealii::Vector<double>& displacement, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
@@ -55,7 +56,7 @@ private:
   const RingSpace& space;
   const ContactBoundary candidates;
   ContactBoundary boundary; ///< of the scene
-  Work* work = nullptr;
+  RunStatistics* work = nullptr;
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   SparseCholesky cholesky;
   dealii::LAPACKFullMatrix<double> factor; ///< L_cc

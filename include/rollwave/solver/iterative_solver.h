@@ -26,10 +26,11 @@ public:
 
   /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
   void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                   const std::optional<FieldVector>& load, Work& work) override;
+                   const std::optional<FieldVector>& load, RunStatistics& work) override;
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
-  dealii::Vector<double> response(const dealii::Vector<double>& force, double accuracy) override;
+  dealii::Vector<double> apply_compliance(const dealii::Vector<double>& force,
+                                          double accuracy) override;
   ContactState derivative(const std::vector<bool>& pinned,
                           const dealii::Vector<double>& displacement, double accuracy) override;
   FieldVector displacement_field(const ContactState& state) override;
@@ -46,7 +47,7 @@ private:
   const RingSpace& space;
   ContactBoundary boundary; ///< of the scene
   const std::optional<FieldVector>* load = nullptr;
-  Work* work = nullptr;
+  RunStatistics* work = nullptr;
   std::optional<double> angular_velocity; ///< of the matrix
   AmgCg system;
   FieldVector field; ///< u of the last solve, zero where a constraint holds

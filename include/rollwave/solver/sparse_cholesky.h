@@ -17,15 +17,15 @@ public:
       : space(space), last(last) {}
 
   void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                  const RadialProducts& radial, Work& work) override;
-  FieldVector solve(const FieldVector& rhs, Work& work) override;
+                  const RadialProducts& radial, RunStatistics& work) override;
+  FieldVector solve(const FieldVector& rhs, RunStatistics& work) override;
 
   // set_matrix() in its steps; the first one does nothing when it is repeated:
   void number_unknowns(const dealii::AffineConstraints<double>& constraints);
   LowerTriplets assemble(const dealii::AffineConstraints<double>& constraints,
                          const RadialProducts& radial) const;
-  void analyse(const LowerTriplets& triplets, Work& work);
-  void factorise(Work& work);
+  void analyse(const LowerTriplets& triplets, RunStatistics& work);
+  void factorise(RunStatistics& work);
 
   CholmodFactor& factor() { return *cholesky; }
   const CholmodFactor& factor() const { return *cholesky; }

@@ -1,7 +1,7 @@
 #ifndef ROLLWAVE_SOLVER_SPD_SOLVER_H
 #define ROLLWAVE_SOLVER_SPD_SOLVER_H
 
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 #include "rollwave/mesh/assembly.h"
 
 namespace rollwave {
@@ -17,10 +17,10 @@ public:
   /// for their inhomogeneities.
   /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
   virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                          const RadialProducts& radial, Work& work) = 0;
+                          const RadialProducts& radial, RunStatistics& work) = 0;
 
   /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
-  virtual FieldVector solve(const FieldVector& rhs, Work& work) = 0;
+  virtual FieldVector solve(const FieldVector& rhs, RunStatistics& work) = 0;
 };
 
 } // namespace rollwave

@@ -1,5 +1,5 @@
-#ifndef ROLLWAVE_BASE_WORK_H
-#define ROLLWAVE_BASE_WORK_H
+#ifndef ROLLWAVE_BASE_RUN_STATISTICS_H
+#define ROLLWAVE_BASE_RUN_STATISTICS_H
 
 #include <deal.II/base/timer.h>
 
@@ -13,12 +13,12 @@
 namespace rollwave {
 
 /// Counts of the work of a run and the seconds of its phases.
-class Work {
+class RunStatistics {
 public:
   /// Called when a phase has ended, with the seconds of this once.
   using Observer = std::function<void(const std::string& phase, double seconds)>;
 
-  Work(Observer observer = {}) : observer(std::move(observer)) {}
+  RunStatistics(Observer observer = {}) : observer(std::move(observer)) {}
 
   unsigned int load_assemblies = 0;
   unsigned int stiffness_assemblies = 0;
@@ -39,13 +39,13 @@ public:
   class Phase {
   public:
     /// @param name one of phase_names(). @throws std::out_of_range for another
-    Phase(Work& work, const std::string& name);
+    Phase(RunStatistics& work, const std::string& name);
     ~Phase();
     Phase(const Phase&) = delete;
     Phase& operator=(const Phase&) = delete;
 
   private:
-    Work& work;
+    RunStatistics& work;
     const std::string name;
     Phase* const outer;
     double inner_seconds = 0;

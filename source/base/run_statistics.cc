@@ -1,4 +1,4 @@
-#include "rollwave/base/work.h"
+#include "rollwave/base/run_statistics.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -8,7 +8,7 @@ namespace rollwave {
 namespace {
 
 const std::string& checked(const std::string& name) {
-  const auto& names = Work::phase_names();
+  const auto& names = RunStatistics::phase_names();
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw std::out_of_range("there is no phase " + name);
   return name;
@@ -16,7 +16,7 @@ const std::string& checked(const std::string& name) {
 
 } // namespace
 
-const std::vector<std::string>& Work::phase_names() {
+const std::vector<std::string>& RunStatistics::phase_names() {
   static const std::vector<std::string> names = {
       "mesh",          "space",          "assembly",    "ordering",
       "factorisation", "preconditioner", "contact",     "back-substitution",
@@ -24,12 +24,12 @@ const std::vector<std::string>& Work::phase_names() {
   return names;
 }
 
-Work::Phase::Phase(Work& work, const std::string& name)
+RunStatistics::Phase::Phase(RunStatistics& work, const std::string& name)
     : work(work), name(checked(name)), outer(work.innermost) {
   work.innermost = this;
 }
 
-Work::Phase::~Phase() {
+RunStatistics::Phase::~Phase() {
   const double all = timer.wall_time();
   work.seconds_of[name] += all - inner_seconds;
   if (work.observer)
@@ -39,12 +39,12 @@ Work::Phase::~Phase() {
   work.innermost = outer;
 }
 
-std::optional<double> Work::seconds(const std::string& phase) const {
+std::optional<double> RunStatistics::seconds(const std::string& phase) const {
   const auto entry = seconds_of.find(phase);
   return entry == seconds_of.end() ? std::nullopt : std::optional(entry->second);
 }
 
-double Work::total_seconds() const {
+double RunStatistics::total_seconds() const {
   double total = 0;
   for (const auto& [phase, seconds] : seconds_of)
     total += seconds;
