@@ -78,6 +78,8 @@ TEST(Load, ThatNoDistanceGivesIsRefusedWithTheLargest) {
     EXPECT_NE(refused.wanted.find("at 0.5"), std::string::npos) << refused.wanted;
   }
   EXPECT_THROW(parameters_of({"Road/Load=0"}), BadInput);
+  for (const char* distance : {"Road/Distance=0.75", "Road/Distance=0.8"})
+    EXPECT_THROW(parameters_of({"Road/Load=1", distance}), BadInput);
   EXPECT_NO_THROW(parameters_of({"Road/Load=1", "Road/Distance=none"}));
   EXPECT_THROW(parameters_of({"Road/Distance=none"}), BadInput);
 }

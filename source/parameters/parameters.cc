@@ -214,6 +214,12 @@ const Setting* given(const std::vector<Setting>& settings, const char* key) {
   return last && last->value != "none" ? last : nullptr;
 }
 
+[[noreturn]] void refuse_distance_and_load(const std::vector<Setting>& settings) {
+  throw BadInput(refusal(settings, BadValue("Road", "Load",
+                                            "the distance follows from the load; leave out "
+                                            "Road/Distance or Road/Load, or set it to none")));
+}
+
 /// The later one of distance and load holds; the other is set to none.
 void KeysOfParameters::set(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings)
@@ -222,6 +228,8 @@ void KeysOfParameters::set(const std::vector<Setting>& settings) {
                                                                    given(settings, "Load");
   if (!distance && !load && last_of(settings, "Road/Distance"))
     throw BadInput(refusal(settings, BadValue("Road", "Distance", "Road/Load is not given")));
+  if (distance && load && distance->origin == load->origin)
+    refuse_distance_and_load(settings);
   if (load && (!distance || load > distance))
     keys.set({"Road", "Distance", "none", load->origin});
   else if (load)
@@ -251,9 +259,7 @@ std::vector<Setting> parse_settings(const std::string& text, const std::string& 
   read.keys.read(text, name);
   const std::vector<Setting>& settings = read.parameters.settings;
   if (given(settings, "Distance") && given(settings, "Load"))
-    throw BadInput(refusal(settings, BadValue("Road", "Load",
-                                              "the distance follows from the load; leave out "
-                                              "Road/Distance or Road/Load, or set it to none")));
+    refuse_distance_and_load(settings);
   return settings;
 }
 

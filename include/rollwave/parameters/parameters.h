@@ -54,7 +54,8 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
 
 /**
  * The parameters with these settings; the other keys keep their defaults. The later one of
- * `Road/Distance` and `Road/Load` replaces the other.
+ * `Road/Distance` and `Road/Load` replaces the other,
+ * unless both have the same origin, such as the command line.
  *
  * @throws BadInput for an unknown section or key, or a value that its key does not accept.
  * Conditions between several keys are checked by make_scene().

@@ -18,8 +18,8 @@ std::string table_as_text(const Study& study);
 /// The same as a LaTeX document.
 std::string table_as_tex(const Study& study);
 
-/// The first failure and the first remarks with the number of runs that have some, and the orders
-/// of errors. study.csv has them all.
+/// Prints the first failure and the first remarks, each with the number of runs that have any, and
+/// the orders of convergence. study.csv has the failures and remarks of every run.
 void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave
