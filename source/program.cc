@@ -70,7 +70,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
             "leave out --verify", communicator, solution.result.shortfalls);
     write_summary(directory, parameters, solution);
   }
-  report_end(out, solution.result.work, written);
+  report_end(out, solution.result.statistics, written);
   if (!solution.result.shortfalls.empty())
     throw NotSolved(shortfall_text(solution.result));
 }

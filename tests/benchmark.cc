@@ -50,15 +50,15 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
 /// Everything from ordering and triplets to the displacement field, without assembly.
 double contact_seconds(const Scene& scene, const Parameters& parameters) {
   const MeshAndSpace ring(scene, parameters); // whose order of elimination is yet to be found
-  RunStatistics work;
+  RunStatistics statistics;
   DirectSolver solver(ring.boundary);
-  solver.set_problem(scene, ring.boundary, {}, work);
+  solver.set_problem(scene, ring.boundary, {}, statistics);
   {
-    const RunStatistics::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(statistics, "contact");
     const auto contact = active_set(solver, make_contact_problem(ring.boundary, scene), 100);
     solver.displacement_field(contact.state);
   }
-  return work.total_seconds() - work.seconds("assembly").value_or(0);
+  return statistics.total_seconds() - statistics.seconds("assembly").value_or(0);
 }
 
 double median(std::vector<double> values) {
@@ -88,11 +88,11 @@ void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& 
 void benchmark_phases(const PaperScene& paper, const std::vector<std::string>& mesh) {
   const Parameters parameters = with(paper.parameters(), mesh);
   const Result result = simulate(make_scene(parameters), parameters).result;
-  std::printf("| %d | %u | %u |", paper.figure, parameters.mesh.degree, result.mesh.dofs);
+  std::printf("| %d | %u | %u |", paper.figure, parameters.mesh.degree, result.mesh.n_unknowns);
   for (const std::string& phase : RunStatistics::phase_names())
-    if (const auto seconds = result.work.seconds(phase))
+    if (const auto seconds = result.statistics.seconds(phase))
       std::printf(" %s %.3g,", phase.c_str(), *seconds);
-  std::printf(" | %.3g | %.0f |\n", result.work.total_seconds(), peak_memory_mib());
+  std::printf(" | %.3g | %.0f |\n", result.statistics.total_seconds(), peak_memory_mib());
   std::fflush(stdout);
 }
 

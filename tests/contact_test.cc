@@ -92,13 +92,13 @@ struct FullCircle {
                                   "Mesh/Angular cells=12"})),
         scene(full_circle(0.5, 1, angular_velocity, -0.1)), ring(scene, parameters),
         solver(ring.boundary), problem(make_contact_problem(ring.boundary, scene)) {
-    solver.set_problem(scene, ring.boundary, {}, work);
+    solver.set_problem(scene, ring.boundary, {}, statistics);
   }
 
   Parameters parameters;
   Scene scene;
   MeshAndSpace ring;
-  RunStatistics work;
+  RunStatistics statistics;
   DirectSolver solver;
   ContactProblem problem;
 };
@@ -132,13 +132,13 @@ struct Prepared {
       : scene(make_scene(parameters)), ring(scene, parameters),
         load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
         solver(ring.boundary), problem(make_contact_problem(ring.boundary, scene)) {
-    solver.set_problem(scene, ring.boundary, load, work);
+    solver.set_problem(scene, ring.boundary, load, statistics);
   }
 
   Scene scene;
   MeshAndSpace ring;
   std::optional<FieldVector> load;
-  RunStatistics work;
+  RunStatistics statistics;
   DirectSolver solver;
   ContactProblem problem;
 };

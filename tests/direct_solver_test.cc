@@ -48,8 +48,9 @@ struct RandomMatrix {
 double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
   SparseCholesky cholesky(space);
   cholesky.number_unknowns(space.constraints());
-  RunStatistics work;
-  cholesky.analyse(cholesky.assemble(space.constraints(), stiffness_products(space, scene)), work);
+  RunStatistics statistics;
+  cholesky.analyse(cholesky.assemble(space.constraints(), stiffness_products(space, scene)),
+                   statistics);
   return cholesky.factor().n_factor_entries() / space.n_unknowns();
 }
 
@@ -159,14 +160,14 @@ protected:
                            "Mesh/Angular cells=12", "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)), ring(scene, parameters),
         load(assemble_load(ring.space, scene)), solver(ring.boundary) {
-    solver.set_problem(scene, ring.boundary, load, work);
+    solver.set_problem(scene, ring.boundary, load, statistics);
   }
 
   const Parameters parameters;
   const Scene scene;
   const MeshAndSpace ring;
   const std::optional<FieldVector> load;
-  RunStatistics work;
+  RunStatistics statistics;
   DirectSolver solver;
 };
 
@@ -229,7 +230,7 @@ TEST_P(Direct, FreesTheCandidatesOutsideOfTheZone) {
   const unsigned int m = ring.boundary.size();
   ASSERT_GT(wide.size(), m);
   DirectSolver of_wide(wide);
-  of_wide.set_problem(scene, ring.boundary, load, work);
+  of_wide.set_problem(scene, ring.boundary, load, statistics);
   std::vector<bool> pinned(m, true);
   pinned[m / 2] = false;
   ContactState one = {Vector<double>(m), Vector<double>(m)};

@@ -31,10 +31,10 @@ struct Answer {
   Answer(const Scene& scene, const Parameters& parameters, const ContactBoundary& boundary,
          const std::string& kind)
       : on_mesh(solve_on_mesh(scene, with(parameters, {"Solver/Kind=" + kind}), boundary, {}, cache,
-                              work)),
+                              statistics)),
         result(measure(on_mesh)) {}
 
-  RunStatistics work;
+  RunStatistics statistics;
   MeshCache cache;
   MeshSolution on_mesh;
   Result result;
@@ -60,11 +60,11 @@ void expect_same_answer(const Scene& scene, const Parameters& parameters,
   EXPECT_LE(residuals.negative_pressure, 1e-10);
   EXPECT_LE(residuals.complementarity, direct.result.residuals.complementarity + 1e-10);
 
-  EXPECT_GT(iterative.work.linear_iterations, 0u);
-  EXPECT_GT(iterative.work.preconditioners, 0u);
-  EXPECT_EQ(iterative.work.factorisations, 0u);
-  EXPECT_EQ(direct.work.linear_iterations, 0u);
-  EXPECT_EQ(direct.work.preconditioners, 0u);
+  EXPECT_GT(iterative.statistics.linear_iterations, 0u);
+  EXPECT_GT(iterative.statistics.preconditioners, 0u);
+  EXPECT_EQ(iterative.statistics.factorisations, 0u);
+  EXPECT_EQ(direct.statistics.linear_iterations, 0u);
+  EXPECT_EQ(direct.statistics.preconditioners, 0u);
 }
 
 class IterativeKind : public testing::TestWithParam<std::vector<std::string>> {};
@@ -196,11 +196,11 @@ TEST_F(Kinds, TheIterativeOneGoesOnWhereItStopped) {
   EXPECT_GT(both, loose);
   EXPECT_EQ(iterative_work.preconditioners, 1u);
 
-  RunStatistics work;
+  RunStatistics statistics;
   IterativeSolver fresh(boundary);
-  fresh.set_problem(scene, boundary, load, work);
+  fresh.set_problem(scene, boundary, load, statistics);
   fresh.solve(pinned, state, 1e-11);
-  EXPECT_LE(both, work.linear_iterations + 2);
+  EXPECT_LE(both, statistics.linear_iterations + 2);
 }
 
 TEST_F(Kinds, GiveTheFieldOfTheStateThatIsAskedFor) {
@@ -248,10 +248,10 @@ TEST_F(Kinds, AgreeOnTheChangeOfForces) {
 }
 
 TEST_F(Kinds, SomethingAndThenNothingLeavesNothing) {
-  RunStatistics work;
+  RunStatistics statistics;
   const std::optional<FieldVector> no_load;
   IterativeSolver solver(boundary);
-  solver.set_problem(scene, boundary, no_load, work);
+  solver.set_problem(scene, boundary, no_load, statistics);
   const unsigned int m = boundary.size();
   ContactState state = random_state(std::vector<bool>(m, true));
   solver.solve(std::vector<bool>(m, true), state, 1e-11);
@@ -281,13 +281,13 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheFactorWouldNotFit) {
   const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
   const MeshAndSpace ring(scene, parameters);
   const std::optional<FieldVector> no_load;
-  RunStatistics work;
-  const SolverChoice choice =
-      choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
+  RunStatistics statistics;
+  const SolverChoice choice = choose_solver(SolverKind::automatic, ring.boundary, scene,
+                                            ring.boundary, no_load, statistics);
   EXPECT_NE(dynamic_cast<const IterativeSolver*>(choice.solver.get()), nullptr);
   EXPECT_NE(choice.remark.find("200000 contact nodes"), std::string::npos) << choice.remark;
   EXPECT_THROW(
-      choose_solver(SolverKind::direct, ring.boundary, scene, ring.boundary, no_load, work),
+      choose_solver(SolverKind::direct, ring.boundary, scene, ring.boundary, no_load, statistics),
       NotEnoughMemory);
 }
 
@@ -300,13 +300,13 @@ TEST(SolverChoice, TurnsToTheIterativeKindWhereTheDenseProblemTakesLonger) {
                        "Mesh/Angular cells=3000"});
     const Scene scene = full_circle(0.5, 1, 0.5, -0.1);
     const MeshAndSpace ring(scene, parameters);
-    RunStatistics work;
+    RunStatistics statistics;
     const std::optional<FieldVector> no_load;
-    const SolverChoice choice =
-        choose_solver(SolverKind::automatic, ring.boundary, scene, ring.boundary, no_load, work);
+    const SolverChoice choice = choose_solver(SolverKind::automatic, ring.boundary, scene,
+                                              ring.boundary, no_load, statistics);
     EXPECT_EQ(choice.kind, is_direct ? SolverKind::direct : SolverKind::iterative);
     EXPECT_EQ(choice.remark.empty(), is_direct);
-    EXPECT_EQ(work.factorisations, is_direct ? 1u : 0u);
+    EXPECT_EQ(statistics.factorisations, is_direct ? 1u : 0u);
   }
 }
 
@@ -325,16 +325,16 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
       constraints.add_line(boundary.contact_nodes()[i].dof);
   constraints.close();
 
-  RunStatistics work;
+  RunStatistics statistics;
   AmgCg solver(space);
-  solver.set_matrix(constraints, stiffness_products(space, scene), work);
+  solver.set_matrix(constraints, stiffness_products(space, scene), statistics);
   const FieldVector rhs = random_load(space, constraints);
   FieldVector u = space.make_field();
   const double size = rhs.l2_norm();
   EXPECT_LE(solver.improve(
-                u, rhs, [size](const FieldVector&) { return size; }, 1e-10, work),
+                u, rhs, [size](const FieldVector&) { return size; }, 1e-10, statistics),
             1e-10);
-  return work.linear_iterations;
+  return statistics.linear_iterations;
 }
 
 class Multigrid : public testing::TestWithParam<std::vector<std::string>> {};

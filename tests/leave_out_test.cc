@@ -10,11 +10,11 @@ namespace {
 RunStatistics work_of(std::vector<std::string> assignments) {
   assignments.insert(assignments.begin(), {"Mesh/Radial cells=4", "Mesh/Angular cells=60"});
   const Parameters parameters = parameters_of(assignments);
-  return simulate(make_scene(parameters), parameters).result.work;
+  return simulate(make_scene(parameters), parameters).result.statistics;
 }
 
-bool has_phase(const RunStatistics& work, const std::string& name) {
-  return work.seconds(name).has_value();
+bool has_phase(const RunStatistics& statistics, const std::string& name) {
+  return statistics.seconds(name).has_value();
 }
 
 TEST(LeaveOut, NoLoadWithoutForce) {
@@ -31,12 +31,12 @@ TEST(LeaveOut, NoLoadWithoutForce) {
 
 TEST(LeaveOut, OneFactorisationForEachMeshHoweverManyContactSteps) {
   for (const char* method : {"Contact/Method=active set", "Contact/Method=uzawa"}) {
-    const RunStatistics work = work_of({"Certificate/Error bound=false", method});
-    EXPECT_EQ(work.stiffness_assemblies, 1u);
-    EXPECT_EQ(work.orderings, 1u);
-    EXPECT_EQ(work.factorisations, 1u);
-    EXPECT_EQ(work.back_substitutions, 1u);
-    EXPECT_EQ(work.linear_iterations, 0u);
+    const RunStatistics statistics = work_of({"Certificate/Error bound=false", method});
+    EXPECT_EQ(statistics.stiffness_assemblies, 1u);
+    EXPECT_EQ(statistics.orderings, 1u);
+    EXPECT_EQ(statistics.factorisations, 1u);
+    EXPECT_EQ(statistics.back_substitutions, 1u);
+    EXPECT_EQ(statistics.linear_iterations, 0u);
   }
 }
 
@@ -44,7 +44,7 @@ TEST(LeaveOut, NoContactLoopWhenTheFreeSolutionIsFeasible) {
   const Parameters parameters = parameters_of({"Road/Distance=1.2", "Cylinder/Radial force=-1"});
   const Result result = simulate(make_scene(parameters), parameters).result;
   EXPECT_EQ(result.history.size(), 1u);
-  EXPECT_EQ(result.work.dense_factorisations, 0u);
+  EXPECT_EQ(result.statistics.dense_factorisations, 0u);
 }
 
 TEST(LeaveOut, CertificateAndIndicatorAreForThoseWhoAsk) {

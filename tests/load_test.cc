@@ -51,7 +51,7 @@ TEST(Load, TakesNoFurtherFactorisation) {
   const auto factorisations = [](const std::string& setting) {
     return solve_for({setting, "Mesh/Radial cells=4", "Mesh/Angular cells=48",
                       "Certificate/Error bound=false"})
-        .result.work.factorisations;
+        .result.statistics.factorisations;
   };
   EXPECT_EQ(factorisations("Road/Load=0.3"), factorisations("Road/Distance=0.8"));
 }
@@ -165,7 +165,7 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
   loaded.push_back("Mesh/Wanted relative error=1e-4");
   const Result refined = solve_for(loaded).result;
   EXPECT_EQ(refined.shortfalls.size(), 1u);
-  EXPECT_LT(refined.mesh.dofs, 50000u);
+  EXPECT_LT(refined.mesh.n_unknowns, 50000u);
   // A coarse mesh, whose load falls short at every distance, does not refuse what others carry.
   EXPECT_NO_THROW(
       solve_for({"Cylinder/Angular velocity=1", "Road/Curvature=10", "Road/Load=0.4",

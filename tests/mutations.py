@@ -64,7 +64,7 @@ for name, right, wrong in MUTATIONS:
         print(f'not built   {name}: {wrong}', flush=True)
         continue
     failed = [line for line in run.stdout.splitlines() if 'FAILED  ]' in line]
-    survivors += run.returncode == 0
-    print(f'{"SURVIVED" if run.returncode == 0 else "caught  "}    {name}: {wrong}    '
-          f'{failed[0].split()[3] if failed else ""}', flush=True)
+    survivors += not failed
+    print(f'{"caught  " if failed else "SURVIVED"}    {name}: {wrong}    '
+          f'{failed[0].split()[3] if failed else f"exit code {run.returncode}"}', flush=True)
 sys.exit(survivors > 0)

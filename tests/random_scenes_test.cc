@@ -145,9 +145,10 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      RunStatistics work;
-      Solution solution = simulate(
-          Discretisation(scene, parameters, MPI_COMM_SELF, work, scene.zone()), scene, parameters);
+      RunStatistics statistics;
+      Solution solution =
+          simulate(Discretisation(scene, parameters, MPI_COMM_SELF, statistics, scene.zone()),
+                   scene, parameters);
       const Result& result = solution.result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;

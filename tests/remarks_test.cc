@@ -74,8 +74,8 @@ TEST(Remarks, TellWhatTheWantedErrorNeeds) {
   const auto place = text.find(before);
   ASSERT_NE(place, std::string::npos) << text;
   const double predicted = std::stod(text.substr(place + before.size()));
-  EXPECT_LT(predicted, 2 * reached.mesh.dofs);
-  EXPECT_GT(predicted, reached.mesh.dofs / 3.);
+  EXPECT_LT(predicted, 2 * reached.mesh.n_unknowns);
+  EXPECT_GT(predicted, reached.mesh.n_unknowns / 3.);
 }
 
 TEST(Remarks, TellWhenTheBoundSaysNothing) {

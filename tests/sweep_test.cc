@@ -39,10 +39,10 @@ protected:
   Result next(const std::vector<std::string>& assignments) {
     const Parameters parameters = parameters_with(assignments);
     const Scene scene = make_scene(parameters);
-    RunStatistics work;
+    RunStatistics statistics;
     if (!mesh)
-      mesh.emplace(scene, parameters, MPI_COMM_SELF, work, scene.zone());
-    Solution solution = simulate(std::move(*mesh), scene, parameters, work);
+      mesh.emplace(scene, parameters, MPI_COMM_SELF, statistics, scene.zone());
+    Solution solution = simulate(std::move(*mesh), scene, parameters, statistics);
     mesh = std::move(solution.mesh);
     // A zone that is left to the program depends on the distance.
     const Result single = simulate(scene, parameters).result;
@@ -56,30 +56,30 @@ protected:
 TEST_P(Sweep, DoesNothingTwice) {
   const std::string zone = "Road/Contact zone=3.9, 5.5";
   const unsigned int n_factors = GetParam() == "direct" ? 2 : 0; // K and certificate
-  const RunStatistics first = next({zone}).work;
+  const RunStatistics first = next({zone}).statistics;
   EXPECT_EQ(first.stiffness_assemblies, 1u);
   EXPECT_EQ(first.orderings, n_factors);
   EXPECT_EQ(first.factorisations, n_factors);
 
-  const RunStatistics distance = next({zone, "Road/Distance=0.85"}).work;
+  const RunStatistics distance = next({zone, "Road/Distance=0.85"}).statistics;
   EXPECT_EQ(distance.stiffness_assemblies, 0u);
   EXPECT_EQ(distance.orderings, 0u);
   EXPECT_EQ(distance.factorisations, 0u);
 
   const RunStatistics speed =
-      next({zone, "Road/Distance=0.85", "Cylinder/Angular velocity=1"}).work;
+      next({zone, "Road/Distance=0.85", "Cylinder/Angular velocity=1"}).statistics;
   EXPECT_EQ(speed.stiffness_assemblies, 1u);
   EXPECT_EQ(speed.orderings, n_factors / 2);
   EXPECT_EQ(speed.factorisations, n_factors);
 
   const RunStatistics force =
-      next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1"}).work;
+      next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1"}).statistics;
   EXPECT_EQ(force.load_assemblies, 1u);
   EXPECT_EQ(force.factorisations, 0u);
   EXPECT_EQ(force.forward_substitutions, n_factors);
   const RunStatistics same_force =
       next({zone, "Cylinder/Radial force=1", "Cylinder/Angular velocity=1", "Road/Distance=0.9"})
-          .work;
+          .statistics;
   EXPECT_EQ(same_force.load_assemblies, 0u);
   EXPECT_EQ(same_force.forward_substitutions, n_factors / 2); // of the certificate
   next({zone, "Cylinder/Angular velocity=1"});

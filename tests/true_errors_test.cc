@@ -97,7 +97,7 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
         errors[i] = measure_true_errors(solution.space(), solution.displacement, solution.result,
                                         solution.certificate, *exact)
                         .energy_norm;
-        unknowns[i] = solution.result.mesh.dofs;
+        unknowns[i] = solution.result.mesh.n_unknowns;
       }
       const double order =
           2 * std::log(errors[0] / errors[1]) / std::log(unknowns[1] / unknowns[0]);

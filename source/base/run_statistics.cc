@@ -1,7 +1,10 @@
 #include "rollwave/base/run_statistics.h"
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace rollwave {
 
@@ -24,19 +27,19 @@ const std::vector<std::string>& RunStatistics::phase_names() {
   return names;
 }
 
-RunStatistics::Phase::Phase(RunStatistics& work, const std::string& name)
-    : work(work), name(checked(name)), outer(work.innermost) {
-  work.innermost = this;
+RunStatistics::Phase::Phase(RunStatistics& statistics, const std::string& name)
+    : statistics(statistics), name(checked(name)), outer(statistics.innermost) {
+  statistics.innermost = this;
 }
 
 RunStatistics::Phase::~Phase() {
   const double all = timer.wall_time();
-  work.seconds_of[name] += all - inner_seconds;
-  if (work.observer)
-    work.observer(name, all - inner_seconds);
+  statistics.seconds_of[name] += all - inner_seconds;
+  if (statistics.observer)
+    statistics.observer(name, all - inner_seconds);
   if (outer)
     outer->inner_seconds += all;
-  work.innermost = outer;
+  statistics.innermost = outer;
 }
 
 std::optional<double> RunStatistics::seconds(const std::string& phase) const {
@@ -49,6 +52,18 @@ double RunStatistics::total_seconds() const {
   for (const auto& [phase, seconds] : seconds_of)
     total += seconds;
   return total;
+}
+
+double seconds_of_process() {
+  std::string text, skipped;
+  std::getline(std::ifstream("/proc/self/stat"), text);
+  std::istringstream entries(text.substr(text.rfind(')') + 1)); // behind the program's name
+  for (int entry = 3; entry < 22; ++entry)
+    entries >> skipped;
+  double start = 0, now = 0; // after the start of the system
+  if (!(entries >> start) || !(std::ifstream("/proc/uptime") >> now))
+    return 0;
+  return now - start / sysconf(_SC_CLK_TCK);
 }
 
 } // namespace rollwave

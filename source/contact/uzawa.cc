@@ -82,15 +82,15 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
     const Vector<double> force = problem.forces(pressure);
     // The quotient below errs by the square of this.
     const Vector<double> response = solver.apply_compliance(force, 1e-6);
-    double work = 0, norm_squared = 0, largest = 0;
+    double statistics = 0, norm_squared = 0, largest = 0;
     for (unsigned int i = 0; i < problem.size(); ++i) {
-      work += force(i) * response(i);
+      statistics += force(i) * response(i);
       norm_squared += force(i) * pressure(i);
       pressure(i) = nodes[i] ? response(i) : 0.;
       largest = std::max(largest, std::abs(pressure(i)));
     }
     const double previous = compliance;
-    compliance = work / norm_squared;
+    compliance = statistics / norm_squared;
     pressure /= largest;
     if (compliance - previous < 1e-7 * compliance)
       break;

@@ -227,13 +227,13 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
                     const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, RunStatistics& work) {
-  const RunStatistics::Phase phase(work, "certificate");
+                    StressFunction& stress_function, RunStatistics& statistics) {
+  const RunStatistics::Phase phase(statistics, "certificate");
   const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
   const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
-  const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, work);
+  const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, statistics);
   auto [integrals, cell_bounds] =
       integrate(boundary.space(), scene, {displacement, trace, pressures, potential, force},
                 stress_function.shapes());

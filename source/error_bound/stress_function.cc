@@ -168,7 +168,7 @@ AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& 
 } // namespace
 
 StressFunction::StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
-                               RunStatistics& work)
+                               RunStatistics& statistics)
     : space(space), speed(scene.angular_velocity),
       radial(scene, space.dof_handler().get_fe().degree) {
   if (kind == SolverKind::iterative)
@@ -176,7 +176,7 @@ StressFunction::StressFunction(const RingSpace& space, const Scene& scene, Solve
   else
     solver = std::make_unique<SparseCholesky>(space);
   const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
-  solver->set_matrix(make_constraints(space, scene, no_pressures), products(), work);
+  solver->set_matrix(make_constraints(space, scene, no_pressures), products(), statistics);
 }
 
 RadialProducts StressFunction::products() {
@@ -186,7 +186,7 @@ RadialProducts StressFunction::products() {
 }
 
 FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                                  const ForceIntegral* force, RunStatistics& work) {
+                                  const ForceIntegral* force, RunStatistics& statistics) {
   const auto constraints = make_constraints(space, scene, pressures);
   const Vector<double> no_load(space.dof_handler().get_fe().n_dofs_per_cell());
   FieldVector load = space.make_field();
@@ -198,7 +198,7 @@ FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePres
   if (force)
     force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
-  FieldVector potential = solver->solve(load, work);
+  FieldVector potential = solver->solve(load, statistics);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;

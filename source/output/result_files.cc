@@ -88,12 +88,12 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   const Scene& scene = solution.scene;
   const Result& result = solution.result;
   WrittenFiles written;
-  RunStatistics& work = solution.result.work;
+  RunStatistics& statistics = solution.result.statistics;
   const MPI_Comm communicator = solution.space().communicator();
   const bool is_first = process_number(communicator) == 0;
   std::exception_ptr failure;
   {
-    const RunStatistics::Phase phase(work, "output");
+    const RunStatistics::Phase phase(statistics, "output");
     if (is_first)
       write_parameters(directory, parameters, written);
     if (parameters.wants(OutputFile::contact) && is_first)
@@ -112,7 +112,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
     if (parameters.wants(OutputFile::plot) && is_first)
       draw(plot_scene(scene, result), directory, "scene", written);
   }
-  work.bytes_written += written.n_bytes;
+  statistics.bytes_written += written.n_bytes;
   const std::string summary = summary_of(parameters, solution);
   if (parameters.wants(OutputFile::summary) && is_first)
     written.write(directory / "summary.json", summary);

@@ -13,14 +13,24 @@ namespace rollwave {
 
 namespace {
 
-/// Half the width of the zoom, in units of b: the contact and half as much on both sides, or the
-/// gap.
-double zoom_of(const Scene& scene, const Result& result) {
-  const double gap = scene.road.distance / scene.outer_radius - 1;
+/// Half the range of angles around the contact, which is shown with half as much on both sides;
+/// without contact the gap is to be seen.
+double shown_angle(const Scene& scene, const Result& result) {
   if (!result.patch.ends)
-    return std::max(0.2, 3 * gap);
+    return std::max(0.2, 3 * (scene.road.distance / scene.outer_radius - 1));
   return 1.5 * std::max(std::abs(from_lowest_point(result.patch.ends->first)),
                         std::abs(from_lowest_point(result.patch.ends->second)));
+}
+
+/// The depth of the ends of contact below the lowest point of the surface in contact, in units of
+/// b: on a small drum they lie far below it.
+double depth_of_ends(const Scene& scene, const Result& result) {
+  double depth = 0;
+  if (const auto& ends = result.patch.ends)
+    for (const double z : {ends->first, ends->second})
+      depth = std::max(depth, (scene.outer_radius + scene.phi(z)) * std::cos(from_lowest_point(z)) -
+                                  scene.road.distance);
+  return depth / scene.outer_radius;
 }
 
 /// True if the user has given a material or names of units.
@@ -163,9 +173,10 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
-  const double zoom = zoom_of(scene, result);
-  // The frame of the zoom has 0.40 of the width and 0.25 of the height.
-  const double ratio = (0.25 * height) / (0.40 * width);
+  // The frame of the zoom has 0.40 of the width and 0.25 of the height, of which 0.36 lie below
+  // the lowest point of contact.
+  const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
+               zoom = std::max(angle, 1.6 * depth_of_ends(scene, result) / (0.36 * 2 * ratio));
   std::ostringstream script;
   script.precision(12);
   write_data(script, scene, result);
@@ -177,7 +188,7 @@ Picture plot_scene(const Scene& scene, const Result& result) {
       has_own_units(scene.units) ? scene.units.in_brackets(Quantity::length) : " / b";
   script << "a = " << scene.inner_radius * length << "\nb = " << b * length
          << "\nc = " << scene.road.distance * length << "\nhalf = 1.08 * b * "
-         << std::max(1.15, largest) << "\nangle = " << std::min(zoom, 1.5) << "\nzoom = b * "
+         << std::max(1.15, largest) << "\nangle = " << std::min(angle, 1.5) << "\nzoom = b * "
          << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
          << "\nends = '" << (result.patch.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.curvature > 0 ? "'closed'" : "sprintf('y1=%g', -10*b)")

@@ -169,7 +169,7 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 void report_result(std::ostream& out, const Result& result, const Units& units) {
   const MeshFigures& mesh = result.mesh;
   const double length = units.of(Quantity::length);
-  out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.dofs
+  out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.n_unknowns
       << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min * length
       << " to " << mesh.h_max * length << units.after(Quantity::length) << "\n\nContact steps";
   if (result.rho > 0)
@@ -270,15 +270,19 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   }
 }
 
-void report_end(std::ostream& out, const RunStatistics& work, const WrittenFiles& written) {
+void report_end(std::ostream& out, const RunStatistics& statistics, const WrittenFiles& written) {
+  const auto print = [&out](const std::string& name, double seconds) {
+    out << "  " << std::left << std::setw(20) << name << std::right << std::setw(9) << seconds
+        << '\n';
+  };
   out << "\nSeconds\n" << std::fixed << std::setprecision(3);
+  const double phases = statistics.total_seconds(), total = std::max(phases, seconds_of_process());
+  print("start-up and rest", total - phases);
   for (const std::string& phase : RunStatistics::phase_names())
-    if (const auto seconds = work.seconds(phase))
-      out << "  " << std::left << std::setw(20) << phase << std::right << std::setw(9) << *seconds
-          << '\n';
-  out << "  " << std::left << std::setw(20) << "total" << std::right << std::setw(9)
-      << work.total_seconds() << '\n'
-      << std::defaultfloat << std::setprecision(6);
+    if (const auto seconds = statistics.seconds(phase))
+      print(phase, *seconds);
+  print("total of the process", total);
+  out << std::defaultfloat << std::setprecision(6);
   report_files(out, written);
 }
 

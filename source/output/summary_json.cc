@@ -63,7 +63,7 @@ Json cycles_json(const Result& result, const Units& units) {
   Json json = Json::array();
   for (const CycleFigures& cycle : result.cycles) {
     json.push_back({{"cells", cycle.cells},
-                    {"dofs", cycle.dofs},
+                    {"dofs", cycle.n_unknowns},
                     {"contact_steps", cycle.contact_steps},
                     {"indicated_error", nullptr},
                     {"certified_relative", nullptr}});

@@ -9,11 +9,11 @@ namespace rollwave {
 using namespace dealii;
 
 StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space,
-                                   RunStatistics& work) {
-  const RunStatistics::Phase phase(work, "certificate");
+                                   RunStatistics& statistics) {
+  const RunStatistics::Phase phase(statistics, "certificate");
   if (!dual || dual->angular_velocity() != scene.angular_velocity) {
     dual.reset(); // its memory is free before the next one needs it
-    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, work);
+    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, statistics);
   }
   return *dual;
 }
@@ -21,38 +21,40 @@ StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space,
 namespace {
 
 std::unique_ptr<Triangulation<2>> make_first_mesh(const Scene& scene, const RunOptions& options,
-                                                  MPI_Comm communicator, RunStatistics& work) {
-  const RunStatistics::Phase phase(work, "mesh");
+                                                  MPI_Comm communicator,
+                                                  RunStatistics& statistics) {
+  const RunStatistics::Phase phase(statistics, "mesh");
   return make_ring_mesh(scene, options.mesh, most_cycles(options.mesh) > 0, communicator);
 }
 
 std::unique_ptr<RingSpace> make_space(const Triangulation<2>& triangulation, const Scene& scene,
-                                      const RunOptions& options, RunStatistics& work) {
-  const RunStatistics::Phase phase(work, "space");
+                                      const RunOptions& options, RunStatistics& statistics) {
+  const RunStatistics::Phase phase(statistics, "space");
   return std::make_unique<RingSpace>(triangulation, scene, options.mesh.degree);
 }
 
 } // namespace
 
 Discretisation::Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                               RunStatistics& work,
+                               RunStatistics& statistics,
                                const std::optional<std::pair<double, double>>& shared_zone)
-    : triangulation(make_first_mesh(scene, options, communicator, work)),
-      space(make_space(*triangulation, scene, options, work)), is_shared(shared_zone.has_value()),
-      widest_zone(shared_zone.value_or(scene.zone())), candidates(*space, widest_zone) {}
+    : triangulation(make_first_mesh(scene, options, communicator, statistics)),
+      space(make_space(*triangulation, scene, options, statistics)),
+      is_shared(shared_zone.has_value()), widest_zone(shared_zone.value_or(scene.zone())),
+      candidates(*space, widest_zone) {}
 
 bool Discretisation::refine(const std::vector<double>& indicators, const Scene& scene,
-                            const RunOptions& options, RunStatistics& work) {
+                            const RunOptions& options, RunStatistics& statistics) {
   const auto& mesh = options.mesh;
   {
-    const RunStatistics::Phase phase(work, "mesh");
+    const RunStatistics::Phase phase(statistics, "mesh");
     if (!refine_mesh(*triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
                      most_cells(options)))
       return false;
   }
   cache = {};
   space.reset(); // its memory is free before the next one needs it
-  space = make_space(*triangulation, scene, options, work);
+  space = make_space(*triangulation, scene, options, statistics);
   candidates = ContactBoundary(*space, widest_zone);
   return true;
 }

@@ -15,14 +15,14 @@ namespace {
 /// The certified bounds of E at another distance, on the same mesh.
 Bounds certified_energy(const RunOptions& options, const ContactBoundary& candidates,
                         const MeshSolution& solution, double distance, MeshCache& cache,
-                        RunStatistics& work) {
+                        RunStatistics& statistics) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
   const MeshSolution there =
-      solve_on_mesh(moved, options, candidates, pressure_profile(solution), cache, work);
+      solve_on_mesh(moved, options, candidates, pressure_profile(solution), cache, statistics);
   const CertifiedError error =
       certify(there.boundary, moved, there.problem, there.contact, there.displacement,
-              cache.force.get(), cache.dual_of(moved, candidates.space(), work), work)
+              cache.force.get(), cache.dual_of(moved, candidates.space(), statistics), statistics)
           .error;
   return {error.lower_bound, error.upper_bound};
 }
@@ -39,9 +39,9 @@ double best_step(const Scene& scene, const CertifiedError& error, double stiffne
 
 Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
                   const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
-                  RunStatistics& work) {
+                  RunStatistics& statistics) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, candidates, solution, distance, cache, work);
+    return certified_energy(options, candidates, solution, distance, cache, statistics);
   };
   const double c = solution.scene.road.distance;
   const double step =
@@ -53,9 +53,9 @@ Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
 
 std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
                                      const MeshSolution& solution, const CertifiedError& error,
-                                     MeshCache& cache, RunStatistics& work) {
+                                     MeshCache& cache, RunStatistics& statistics) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, candidates, solution, distance, cache, work);
+    return certified_energy(options, candidates, solution, distance, cache, statistics);
   };
   const double c = solution.scene.road.distance, load = solution.scene.load->value;
   for (double step =

@@ -39,8 +39,8 @@ Quantities mesh_quantities() {
        [](const Result& r) { return r.mesh.degree; }},
       {"mesh.cells", "cells", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.mesh.cells; }},
-      {"mesh.dofs", "unknowns", "N", Quantity::count, Shown::table, all_digits,
-       [](const Result& r) { return r.mesh.dofs; }},
+      {"mesh.n_unknowns", "unknowns", "N", Quantity::count, Shown::table, all_digits,
+       [](const Result& r) { return r.mesh.n_unknowns; }},
       {"mesh.contact_nodes", "nodes in the zone of possible contact", "", Quantity::count, 0,
        all_digits, [](const Result& r) { return r.mesh.contact_nodes; }},
       {"mesh.h_min", "smallest diameter of a cell in (r, b z)", "", Quantity::length, 0, all_digits,
@@ -193,11 +193,11 @@ Quantities work_quantities() {
       {"iterations.rho", "step length of Uzawa's method", "", Quantity::force_density, 0,
        all_digits, [](const Result& r) { return r.rho > 0 ? std::optional(r.rho) : std::nullopt; }},
       {"iterations.linear", "iterations of conjugate gradients", "", Quantity::count, 0, all_digits,
-       [](const Result& r) { return r.work.linear_iterations; }},
+       [](const Result& r) { return r.statistics.linear_iterations; }},
   };
   const auto add_count = [&all](const std::string& name, const std::string& words, auto count) {
     all.push_back({"work." + name, words, "", Quantity::count, 0, all_digits,
-                   [count](const Result& r) { return r.work.*count; }});
+                   [count](const Result& r) { return r.statistics.*count; }});
   };
   add_count("load_assemblies", "assemblies of the load", &RunStatistics::load_assemblies);
   add_count("stiffness_assemblies", "assemblies of the stiffness",
@@ -214,9 +214,9 @@ Quantities work_quantities() {
             &RunStatistics::bytes_written);
   for (const std::string& phase : RunStatistics::phase_names())
     all.push_back({"seconds." + phase, "seconds of the phase " + phase, "", Quantity::number, 0, 3,
-                   [phase](const Result& r) { return r.work.seconds(phase); }});
+                   [phase](const Result& r) { return r.statistics.seconds(phase); }});
   all.push_back({"seconds.total", "seconds", "seconds", Quantity::number, Shown::table, 3,
-                 [](const Result& r) { return r.work.total_seconds(); }});
+                 [](const Result& r) { return r.statistics.total_seconds(); }});
   all.push_back({"peak_memory_mib", "largest memory of a process in MiB", "", Quantity::number, 0,
                  4, [](const Result& r) { return r.peak_memory_mib; }});
   return all;

@@ -48,13 +48,14 @@ std::string cost_text(const RunOptions& options, const Result& result) {
     if (mesh.indicated > 0)
       end = &mesh;
   for (const CycleFigures& mesh : result.cycles)
-    if (end && 4 * mesh.dofs <= end->dofs)
+    if (end && 4 * mesh.n_unknowns <= end->n_unknowns)
       begin = &mesh;
   if (!result.certified || !begin || !(end->indicated < begin->indicated))
     return {};
-  const double rate =
-      std::log(begin->indicated / end->indicated) / std::log(double(end->dofs) / begin->dofs);
-  const double needed = result.mesh.dofs * std::pow(result.certified->relative / wanted, 1 / rate);
+  const double rate = std::log(begin->indicated / end->indicated) /
+                      std::log(double(end->n_unknowns) / begin->n_unknowns);
+  const double needed =
+      result.mesh.n_unknowns * std::pow(result.certified->relative / wanted, 1 / rate);
   const bool has_higher =
       result.mesh.degree < highest_degree && options.mesh.marking != Marking::all;
   return rounded(wanted, 6) + " needs about " + rounded(needed, 1) + " unknowns at degree " +

@@ -33,12 +33,12 @@ namespace {
 
 /// The certificate of a solution, where it is wanted and does not fail.
 std::optional<Certificate> certify_solution(const RunOptions& options, Discretisation& mesh,
-                                            MeshSolution& solution, RunStatistics& work) {
+                                            MeshSolution& solution, RunStatistics& statistics) {
   std::optional<Certificate> certificate;
   const auto compute = [&] {
     certificate = certify(solution.boundary, solution.scene, solution.problem, solution.contact,
                           solution.displacement, mesh.cache.force.get(),
-                          mesh.cache.dual_of(solution.scene, *mesh.space, work), work);
+                          mesh.cache.dual_of(solution.scene, *mesh.space, statistics), statistics);
   };
   if (options.certificate.error_bound)
     attempt(compute, "the error could not be certified",
@@ -50,8 +50,9 @@ std::optional<Certificate> certify_solution(const RunOptions& options, Discretis
 /// eta_K of each active cell: its share of the bound or, without a bound, Kelly's indicator.
 std::vector<double> indicate(const RunOptions& options, const Discretisation& mesh,
                              const MeshSolution& solution,
-                             const std::optional<Certificate>& certificate, RunStatistics& work) {
-  const RunStatistics::Phase phase(work, "indicator");
+                             const std::optional<Certificate>& certificate,
+                             RunStatistics& statistics) {
+  const RunStatistics::Phase phase(statistics, "indicator");
   if (certificate && options.mesh.indicator == Indicator::certificate)
     return certificate->cell_bounds;
   return kelly_indicator(*mesh.space, solution.displacement);
@@ -105,16 +106,17 @@ std::string interrupted_text(unsigned int n_meshes) {
 
 /// Bounds the work-conjugate load or, where that is given, the distance.
 void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
-                  const CertifiedError& error, RunStatistics& work, Result& result) {
+                  const CertifiedError& error, RunStatistics& statistics, Result& result) {
   const auto& load = solution.scene.load;
   if (solution.scene.road.curvature > 0)
     result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
                              "least energy need not be convex in the distance");
   else if (!load)
-    result.load_bounds = bound_load(options, mesh.candidates, solution, error, mesh.cache, work);
+    result.load_bounds =
+        bound_load(options, mesh.candidates, solution, error, mesh.cache, statistics);
   else if (load->kind == LoadKind::work_conjugate)
     result.distance_bounds =
-        bound_distance(options, mesh.candidates, solution, error, mesh.cache, work);
+        bound_distance(options, mesh.candidates, solution, error, mesh.cache, statistics);
   else
     result.remarks.push_back("the distance can be enclosed only where Road/Load kind is "
                              "work-conjugate");
@@ -138,7 +140,7 @@ void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolu
 /// The solution of a run from that on its last mesh.
 Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
-                bool is_interrupted, RunStatistics work) {
+                bool is_interrupted, RunStatistics statistics) {
   Result result = measure(last);
   result.cycles = std::move(cycles);
   result.is_interrupted = is_interrupted;
@@ -146,13 +148,13 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
     result.certified = certificate->error;
   judge(options, mesh, last, certificate, result);
   if (options.certificate.load_bounds && certificate && !is_interrupted)
-    attempt([&] { enclose_load(options, mesh, last, certificate->error, work, result); },
+    attempt([&] { enclose_load(options, mesh, last, certificate->error, statistics, result); },
             "the load could not be enclosed",
             "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
             result.shortfalls);
   if (!mesh.is_shared)
     mesh.cache = {};
-  result.work = std::move(work);
+  result.statistics = std::move(statistics);
   return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
           std::move(result)};
 }
@@ -160,14 +162,14 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
 /// @param pressure to start from
 Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& options,
-                          PressureProfile pressure, RunStatistics work, const Progress& progress,
-                          std::vector<CycleFigures>& cycles) {
+                          PressureProfile pressure, RunStatistics statistics,
+                          const Progress& progress, std::vector<CycleFigures>& cycles) {
   for (;;) {
     MeshSolution solution =
-        solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache, work);
+        solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache, statistics);
     if (!mesh.is_shared && !options.certificate.load_bounds)
       mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
-    std::optional<Certificate> certificate = certify_solution(options, mesh, solution, work);
+    std::optional<Certificate> certificate = certify_solution(options, mesh, solution, statistics);
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
     const bool ends = is_last(options, mesh, solution, certificate, cycles.size());
@@ -177,9 +179,9 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     if (!ends && !is_stopped) {
       scene = solution.scene;
       pressure = pressure_profile(solution);
-      const auto indicators = indicate(options, mesh, solution, certificate, work);
+      const auto indicators = indicate(options, mesh, solution, certificate, statistics);
       cycles.back().indicated = total(indicators, mesh.communicator());
-      if (mesh.refine(indicators, scene, options, work)) {
+      if (mesh.refine(indicators, scene, options, statistics)) {
         if (progress.mesh_solved)
           progress.mesh_solved(cycles.size(), cycles.back());
         continue;
@@ -188,7 +190,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     if (progress.mesh_solved && cycles.size() > 1)
       progress.mesh_solved(cycles.size(), cycles.back());
     return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
-                  is_stopped, std::move(work));
+                  is_stopped, std::move(statistics));
   }
 }
 
@@ -210,12 +212,12 @@ struct Start {
 /// Solves on a coarser mesh. The scene as it is, without a pressure, where that is too coarse, such
 /// as for a short zone.
 Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                    RunStatistics& work) {
+                    RunStatistics& statistics) {
   try {
     const RunOptions coarse = coarser(options);
-    Discretisation mesh(scene, coarse, communicator, work);
+    Discretisation mesh(scene, coarse, communicator, statistics);
     const MeshSolution solution =
-        solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, work);
+        solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, statistics);
     return {solution.scene, pressure_profile(solution)};
   } catch (const Interrupted&) {
     throw;
@@ -229,22 +231,22 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
 } // namespace
 
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  RunStatistics work, const Progress& progress) {
+                  RunStatistics statistics, const Progress& progress) {
   const MPI_Comm communicator = mesh.communicator();
   check_simulation(options, count_processes(communicator));
   Start start = {scene, {}};
   if (begins_coarser(options, communicator))
-    start = solve_coarser(scene, options, communicator, work);
+    start = solve_coarser(scene, options, communicator, statistics);
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
   std::vector<CycleFigures> cycles;
   try {
     return solve_and_refine(std::move(mesh), start.scene, options, std::move(start.pressure),
-                            std::move(work), progress, cycles);
+                            std::move(statistics), progress, cycles);
   } catch (const NotEnoughMemory& shortage) {
     if (cycles.empty())
       throw;
-    const std::string solved = std::to_string(cycles.back().dofs);
+    const std::string solved = std::to_string(cycles.back().n_unknowns);
     throw NotSolved("after a mesh of " + solved + " unknowns: " + shortage.reason +
                     "; set Mesh/Most unknowns to " + solved + " to end there");
   }
@@ -253,9 +255,9 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
 Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                   const Progress& progress) {
   check_simulation(options, count_processes(communicator));
-  RunStatistics work(progress.phase_ended);
-  Discretisation mesh(scene, options, communicator, work);
-  return simulate(std::move(mesh), scene, options, std::move(work), progress);
+  RunStatistics statistics(progress.phase_ended);
+  Discretisation mesh(scene, options, communicator, statistics);
+  return simulate(std::move(mesh), scene, options, std::move(statistics), progress);
 }
 
 } // namespace rollwave

@@ -56,17 +56,18 @@ void require_finite(double squared, const std::string& what) {
 }
 
 /// Makes the force and the load of @p cache those of the scene.
-void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache, RunStatistics& work) {
+void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache,
+               RunStatistics& statistics) {
   if (!scene.force) {
     cache.force.reset();
     cache.load.reset();
   } else if (!cache.load || cache.force_text != scene.force.text) {
-    const RunStatistics::Phase phase(work, "assembly");
+    const RunStatistics::Phase phase(statistics, "assembly");
     RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
     cache.force = std::make_unique<ForceIntegral>(space, scene, shapes);
     cache.load = assemble_load(space, *cache.force, shapes);
     cache.force_text = scene.force.text;
-    ++work.load_assemblies;
+    ++statistics.load_assemblies;
   }
   if (cache.load)
     require_finite(cache.load->norm_sqr(), "the load");
@@ -144,31 +145,31 @@ PressureProfile pressure_profile(const MeshSolution& solution) {
 
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& work) {
+                           MeshCache& cache, RunStatistics& statistics) {
   const RingSpace& space = candidates.space();
   MeshSolution solution = {scene, ContactBoundary(space, scene.zone())};
   const ContactBoundary& boundary = solution.boundary;
-  make_load(scene, space, cache, work);
+  make_load(scene, space, cache, statistics);
   if (cache.stiffness.solver)
-    cache.stiffness.solver->set_problem(scene, boundary, cache.load, work);
+    cache.stiffness.solver->set_problem(scene, boundary, cache.load, statistics);
   else
     cache.stiffness =
-        choose_solver(options.solver.kind, candidates, scene, boundary, cache.load, work);
+        choose_solver(options.solver.kind, candidates, scene, boundary, cache.load, statistics);
   ContactLinearSolver& solver = *cache.stiffness.solver;
   if (!cache.stiffness.remark.empty())
     solution.remarks.push_back(cache.stiffness.remark);
   {
-    const RunStatistics::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(statistics, "contact");
     solve_contact_on(options, start, solver, solution);
   }
   solution.displacement = solver.displacement_field(solution.contact.state);
   Loads stiffness;
   {
-    const RunStatistics::Phase phase(work, "contact");
+    const RunStatistics::Phase phase(statistics, "contact");
     stiffness = contact_stiffness(solver, boundary, solution.scene, solution.problem,
                                   solution.contact, options.contact.most_steps);
   }
-  const RunStatistics::Phase phase(work, "measurement");
+  const RunStatistics::Phase phase(statistics, "measurement");
   solution.resultants =
       measure_contact(solution.scene, boundary.contact_nodes(), solution.problem, solution.contact);
   solution.resultants.stiffness = stiffness;

@@ -39,7 +39,7 @@ struct Unpinned {
 } // namespace
 
 void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const RadialProducts& radial,
-                       RunStatistics& /*work*/) {
+                       RunStatistics& /*statistics*/) {
   preconditioner.reset();
   const IndexSet& owned = space.dof_handler().locally_owned_dofs();
   TrilinosWrappers::SparsityPattern pattern(owned, owned, space.relevant_dofs(),
@@ -64,20 +64,20 @@ void AmgCg::pin(const IndexSet& dofs) {
   pinned = dofs;
 }
 
-FieldVector AmgCg::solve(const FieldVector& rhs, RunStatistics& work) {
+FieldVector AmgCg::solve(const FieldVector& rhs, RunStatistics& statistics) {
   constexpr double accuracy = 1e-11;
   FieldVector u = space.make_field();
   const double size = rhs.l2_norm();
   improve(
-      u, rhs, [size](const FieldVector&) { return size; }, accuracy, work);
+      u, rhs, [size](const FieldVector&) { return size; }, accuracy, statistics);
   return u;
 }
 
-const BoomerAmg& AmgCg::multigrid(RunStatistics& work) {
+const BoomerAmg& AmgCg::multigrid(RunStatistics& statistics) {
   if (!preconditioner) {
-    const RunStatistics::Phase phase(work, "preconditioner");
+    const RunStatistics::Phase phase(statistics, "preconditioner");
     preconditioner.emplace(stiffness, pinned, space.communicator());
-    ++work.preconditioners;
+    ++statistics.preconditioners;
   }
   return *preconditioner;
 }
@@ -91,7 +91,7 @@ double AmgCg::residual_norm(const FieldVector& u, const FieldVector& rhs) const 
 }
 
 double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
-                      RunStatistics& work) {
+                      RunStatistics& statistics) {
   FieldVector unpinned_rhs = rhs;
   clear(pinned, unpinned_rhs);
   double given = unpinned_rhs.linfty_norm();
@@ -108,17 +108,18 @@ double AmgCg::improve(FieldVector& u, const FieldVector& rhs, const Scale& scale
     if (residual <= accuracy || !(residual < before / 2)) // which holds for NaN too
       return residual;
     before = residual;
-    iterate(u, unpinned_rhs, accuracy * size, work);
+    iterate(u, unpinned_rhs, accuracy * size, statistics);
   }
 }
 
-void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted, RunStatistics& work) {
+void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted,
+                    RunStatistics& statistics) {
   constexpr unsigned int most_iterations = 5000;
   SolverControl control(most_iterations, wanted, /*log_history=*/false, /*log_result=*/false);
   try {
     SolverCG<FieldVector>(control).solve(
         Unpinned<TrilinosWrappers::SparseMatrix>{stiffness, pinned}, u, rhs,
-        Unpinned<BoomerAmg>{multigrid(work), pinned});
+        Unpinned<BoomerAmg>{multigrid(statistics), pinned});
   } catch (const SolverControl::NoConvergence&) {
     std::ostringstream message;
     message
@@ -129,7 +130,7 @@ void AmgCg::iterate(FieldVector& u, const FieldVector& rhs, double wanted, RunSt
            "where memory suffices, set Solver/Kind to direct";
     throw NotSolved(message.str());
   }
-  work.linear_iterations += control.last_step();
+  statistics.linear_iterations += control.last_step();
 }
 
 } // namespace rollwave

@@ -18,10 +18,10 @@ namespace {
 /// @throws NotEnoughMemory, whatever has noticed it
 std::unique_ptr<ContactLinearSolver>
 make_direct(const ContactBoundary& candidates, const Scene& scene, const ContactBoundary& boundary,
-            const std::optional<FieldVector>& load, RunStatistics& work) {
+            const std::optional<FieldVector>& load, RunStatistics& statistics) {
   try {
     auto solver = std::make_unique<DirectSolver>(candidates);
-    solver->set_problem(scene, boundary, load, work);
+    solver->set_problem(scene, boundary, load, statistics);
     return solver;
   } catch (const std::bad_alloc&) {
   } catch (const ExcOutOfMemory&) { // by the vectors of deal.II
@@ -41,7 +41,7 @@ bool is_dense_part_slow(const ContactBoundary& candidates) {
 
 SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
                            const ContactBoundary& boundary, const std::optional<FieldVector>& load,
-                           RunStatistics& work) {
+                           RunStatistics& statistics) {
   SolverChoice choice;
   if (!is_serial(candidates.space().communicator())) {
     AssertThrow(kind != SolverKind::direct, ExcInternalError());
@@ -54,7 +54,7 @@ SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, c
   }
   if (kind != SolverKind::iterative)
     try {
-      choice.solver = make_direct(candidates, scene, boundary, load, work);
+      choice.solver = make_direct(candidates, scene, boundary, load, statistics);
       return choice;
     } catch (const NotEnoughMemory& shortage) {
       if (kind == SolverKind::direct)
@@ -63,7 +63,7 @@ SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, c
     }
   choice.kind = SolverKind::iterative;
   choice.solver = std::make_unique<IterativeSolver>(candidates);
-  choice.solver->set_problem(scene, boundary, load, work);
+  choice.solver->set_problem(scene, boundary, load, statistics);
   return choice;
 }
 

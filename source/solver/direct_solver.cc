@@ -17,21 +17,21 @@ void DirectSolver::factorise(const Scene& scene) {
   factor.reinit(0);
   schur.reinit(0);
   {
-    const RunStatistics::Phase phase(*work, "ordering");
+    const RunStatistics::Phase phase(*statistics, "ordering");
     cholesky.number_unknowns(space.constraints());
   }
   {
     LowerTriplets triplets;
     {
-      const RunStatistics::Phase phase(*work, "assembly");
+      const RunStatistics::Phase phase(*statistics, "assembly");
       triplets = cholesky.assemble(space.constraints(), stiffness_products(space, scene));
-      ++work->stiffness_assemblies;
+      ++statistics->stiffness_assemblies;
     }
-    const RunStatistics::Phase phase(*work, "ordering");
-    cholesky.analyse(triplets, *work);
+    const RunStatistics::Phase phase(*statistics, "ordering");
+    cholesky.analyse(triplets, *statistics);
   }
-  const RunStatistics::Phase phase(*work, "factorisation");
-  cholesky.factorise(*work);
+  const RunStatistics::Phase phase(*statistics, "factorisation");
+  cholesky.factorise(*statistics);
   const unsigned int m = candidates.size();
   factor.reinit(m);
   factor = cholesky.factor().trailing_factor(m);
@@ -42,15 +42,15 @@ void DirectSolver::factorise(const Scene& scene) {
 }
 
 void DirectSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
-                               const std::optional<FieldVector>& load, RunStatistics& work) {
+                               const std::optional<FieldVector>& load, RunStatistics& statistics) {
   const auto first = candidates.contact_number(boundary.first_surface_node());
   AssertThrow(first && *first + boundary.size() <= candidates.size(), ExcInternalError());
   this->boundary = boundary;
-  this->work = &work;
+  this->statistics = &statistics;
   if (angular_velocity != scene.angular_velocity)
     factorise(scene);
 
-  const RunStatistics::Phase phase(work, "contact");
+  const RunStatistics::Phase phase(statistics, "contact");
   if (is_reduced && load.has_value() == this->load.has_value() &&
       (!load || std::equal(load->begin(), load->end(), this->load->begin())))
     return;
@@ -60,7 +60,7 @@ void DirectSolver::set_problem(const Scene& scene, const ContactBoundary& bounda
   reduced_load.clear();
   if (load) {
     reduced_load = cholesky.factor().forward(cholesky.gather(*load));
-    ++work.forward_substitutions;
+    ++statistics.forward_substitutions;
     factor.vmult(contact_load, Vector<double>(reduced_load.end() - m, reduced_load.end()));
   }
   is_reduced = true;
@@ -134,7 +134,7 @@ double DirectSolver::solve(const std::vector<bool>& pinned, ContactState& state,
                            double /*accuracy*/) {
   Vector<double> displacement = on_candidates(state.displacement),
                  force = on_candidates(state.force);
-  work->dense_factorisations +=
+  statistics->dense_factorisations +=
       solve_dense(on_candidates(pinned), contact_load, displacement, force);
   state.displacement = on_contact(displacement);
   state.force = on_contact(force);
@@ -145,12 +145,12 @@ ContactState DirectSolver::derivative(const std::vector<bool>& pinned,
                                       const Vector<double>& displacement, double /*accuracy*/) {
   const Vector<double> no_load(schur.m());
   Vector<double> moved = on_candidates(displacement), force(schur.m());
-  work->dense_factorisations += solve_dense(on_candidates(pinned), no_load, moved, force);
+  statistics->dense_factorisations += solve_dense(on_candidates(pinned), no_load, moved, force);
   return {on_contact(moved), on_contact(force)};
 }
 
 FieldVector DirectSolver::displacement_field(const ContactState& state) {
-  const RunStatistics::Phase phase(*work, "back-substitution");
+  const RunStatistics::Phase phase(*statistics, "back-substitution");
   std::vector<double> rhs = reduced_load;
   rhs.resize(space.n_unknowns());
   // The candidates that are no contact nodes are free.
@@ -161,7 +161,7 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   Vector<double> trailing(schur.m());
   factor.Tvmult(trailing, displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());
-  ++work->back_substitutions;
+  ++statistics->back_substitutions;
   FieldVector field = cholesky.scatter(cholesky.factor().backward(std::move(rhs)));
   space.constraints().distribute(field);
   return field;

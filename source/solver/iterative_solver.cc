@@ -11,16 +11,17 @@ namespace rollwave {
 using namespace dealii;
 
 void IterativeSolver::set_problem(const Scene& scene, const ContactBoundary& boundary,
-                                  const std::optional<FieldVector>& load, RunStatistics& work) {
+                                  const std::optional<FieldVector>& load,
+                                  RunStatistics& statistics) {
   this->boundary = boundary;
   this->load = &load;
-  this->work = &work;
+  this->statistics = &statistics;
   if (angular_velocity == scene.angular_velocity)
     return;
-  const RunStatistics::Phase phase(work, "assembly");
+  const RunStatistics::Phase phase(statistics, "assembly");
   angular_velocity.reset();
-  system.set_matrix(space.constraints(), stiffness_products(space, scene), work);
-  ++work.stiffness_assemblies;
+  system.set_matrix(space.constraints(), stiffness_products(space, scene), statistics);
+  ++statistics.stiffness_assemblies;
   angular_velocity = scene.angular_velocity;
 }
 
@@ -65,7 +66,7 @@ double IterativeSolver::solve(const std::vector<bool>& pinned, const FieldVector
         force(i) = state.force(i);
     return std::max<double>(load_norm, force.l2_norm());
   };
-  const double residual = system.improve(u, rhs, scale, accuracy, *work);
+  const double residual = system.improve(u, rhs, scale, accuracy, *statistics);
 
   const Vector<double> force = reactions(f, u), displacement = boundary.contact_values(u);
   for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -84,7 +85,7 @@ Vector<double> IterativeSolver::apply_compliance(const Vector<double>& force, do
     if (rhs.in_local_range(nodes[i].dof))
       rhs(nodes[i].dof) = force(i);
   system.improve(
-      u, rhs, [&](const FieldVector&) { return force.l2_norm(); }, accuracy, *work);
+      u, rhs, [&](const FieldVector&) { return force.l2_norm(); }, accuracy, *statistics);
   return boundary.contact_values(u);
 }
 

@@ -53,12 +53,12 @@ LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constrai
   return triplets;
 }
 
-void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& work) {
+void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& statistics) {
   const bool is_first = cholesky->n_factor_entries() == 0;
   cholesky->set_matrix(triplets);
   if (!is_first) // later factors take the place of the one before
     return;
-  ++work.orderings;
+  ++statistics.orderings;
   constexpr double dense_matrices = 3; // of the last nodes: L_cc, S, and a block of S factorised
   const double n_entries =
       cholesky->n_factor_entries() + dense_matrices * last.size() * last.size();
@@ -68,21 +68,21 @@ void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& work)
                                     std::to_string(last.size()) + " contact nodes");
 }
 
-void SparseCholesky::factorise(RunStatistics& work) {
+void SparseCholesky::factorise(RunStatistics& statistics) {
   cholesky->factorise();
-  ++work.factorisations;
+  ++statistics.factorisations;
 }
 
 void SparseCholesky::set_matrix(const AffineConstraints<double>& constraints,
-                                const RadialProducts& radial, RunStatistics& work) {
+                                const RadialProducts& radial, RunStatistics& statistics) {
   number_unknowns(constraints);
-  analyse(assemble(constraints, radial), work);
-  factorise(work);
+  analyse(assemble(constraints, radial), statistics);
+  factorise(statistics);
 }
 
-FieldVector SparseCholesky::solve(const FieldVector& rhs, RunStatistics& work) {
-  ++work.forward_substitutions;
-  ++work.back_substitutions;
+FieldVector SparseCholesky::solve(const FieldVector& rhs, RunStatistics& statistics) {
+  ++statistics.forward_substitutions;
+  ++statistics.back_substitutions;
   return scatter(cholesky->backward(cholesky->forward(gather(rhs))));
 }
 

@@ -13,6 +13,7 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -125,11 +126,29 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-Panel profiles(const Study& study) {
+/// At most most_curves runs: at about equal distances of the key that varies, where its numbers
+/// @p x are known and no other key varies.
+std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double>& x) {
+  const auto numbers = equidistant_numbers(study.runs.size(), most_curves);
+  if (x.empty() || study.first_keys.size() > 1 || x.size() <= most_curves)
+    return {numbers.begin(), numbers.end()};
+  const auto [least, largest] = std::minmax_element(x.begin(), x.end());
+  std::set<unsigned int> runs;
+  for (unsigned int i = 0; i < most_curves; ++i) {
+    const double wanted = *least + (*largest - *least) * i / (most_curves - 1);
+    const auto nearest = std::min_element(x.begin(), x.end(), [&](double left, double right) {
+      return std::abs(left - wanted) < std::abs(right - wanted);
+    });
+    runs.insert(nearest - x.begin());
+  }
+  return runs;
+}
+
+Panel profiles(const Study& study, const std::vector<double>& x) {
   Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
               "contact pressure" + study.units().in_brackets(Quantity::pressure),
               {}};
-  for (const unsigned int run : equidistant_numbers(study.runs.size(), most_curves))
+  for (const unsigned int run : runs_to_show(study, x))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
@@ -176,7 +195,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
   if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
     if (!x.empty())
       add("study-curves", curves(study, x));
-    const Panel panel = profiles(study);
+    const Panel panel = profiles(study, x);
     const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
     add("study-profiles", {panel},
         n_shown == n_runs
@@ -188,7 +207,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
          {std::tuple("study-h", "mesh.h_max",
                      "largest diameter of a cell h" + study.units().in_brackets(Quantity::length),
                      1.),
-          {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
+          {"study-unknowns", "mesh.n_unknowns", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
 #include <sstream>
 
 namespace rollwave {
@@ -18,6 +19,15 @@ const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73",
 /// With all digits that a picture can show.
 std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
+}
+
+/// @p text with at most four digits behind the points of its numbers, as legends have room for.
+std::string with_short_numbers(std::string text) {
+  static const std::regex long_number(R"(\d+\.\d{5,}(e[+-]?\d+)?)");
+  std::string shortened;
+  for (std::smatch number; std::regex_search(text, number, long_number); text = number.suffix())
+    shortened += number.prefix().str() + rounded(std::stod(number.str()), 5);
+  return shortened + text;
 }
 
 /// As inline data, one block for each '-' of a command.
@@ -65,7 +75,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   auto add = [&, is_first = true](const Points& points, unsigned int curve,
                                   const std::string& style, const std::string& title) mutable {
     script << (is_first ? "" : ", ") << "'-' with " << style << " linewidth 2 linecolor rgb '"
-           << colours[curve] << "' title " << in_single_quotes(title);
+           << colours[curve] << "' title " << in_single_quotes(with_short_numbers(title));
     write_points(data, points);
     is_first = false;
   };
@@ -119,9 +129,9 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title "
-         << in_single_quotes(title) << " margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
-         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
-         << 80. / height << '\n';
+         << in_single_quotes(with_short_numbers(title)) << " margins " << (is_single ? 0.14 : 0.09)
+         << ",0.95," << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height
+         << " spacing 0.1," << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
@@ -143,9 +153,9 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
-         << in_single_quotes(title) << "\nset xlabel " << in_single_quotes(x_label)
-         << "\nset ylabel " << in_single_quotes(y_label) << "\nset cblabel "
-         << in_single_quotes(value_label)
+         << in_single_quotes(with_short_numbers(title)) << "\nset xlabel "
+         << in_single_quotes(x_label) << "\nset ylabel " << in_single_quotes(y_label)
+         << "\nset cblabel " << in_single_quotes(value_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1, "
             "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::4::4 with labels boxed "

@@ -39,13 +39,13 @@ public:
   class Phase {
   public:
     /// @param name one of phase_names(). @throws std::out_of_range for another
-    Phase(RunStatistics& work, const std::string& name);
+    Phase(RunStatistics& statistics, const std::string& name);
     ~Phase();
     Phase(const Phase&) = delete;
     Phase& operator=(const Phase&) = delete;
 
   private:
-    RunStatistics& work;
+    RunStatistics& statistics;
     const std::string name;
     Phase* const outer;
     double inner_seconds = 0;
@@ -61,6 +61,10 @@ private:
   std::map<std::string, double> seconds_of; ///< phases that have been entered
   Phase* innermost = nullptr;               ///< the phase that is going on
 };
+
+/// Wall seconds since this process has started, with the loading of its libraries, which takes
+/// longer than a small scene; 0 where the system does not tell.
+double seconds_of_process();
 
 } // namespace rollwave
 

@@ -70,7 +70,7 @@ struct Certificate {
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
                     const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, RunStatistics& work);
+                    StressFunction& stress_function, RunStatistics& statistics);
 
 } // namespace rollwave
 

@@ -37,7 +37,8 @@ public:
   /// it.
   /// @param kind direct or iterative
   /// @throws NotSolved when memory is short
-  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind, RunStatistics& work);
+  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
+                 RunStatistics& statistics);
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
   /// @param pressures one for each of RingSpace::surface_faces()
@@ -45,7 +46,7 @@ public:
   /// periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                    const ForceIntegral* force, RunStatistics& work);
+                    const ForceIntegral* force, RunStatistics& statistics);
 
   double angular_velocity() const { return speed; }
 

@@ -22,7 +22,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
                          const ExactSolution& exact);
 
 /// Tells where the time went and which files were written.
-void report_end(std::ostream& out, const RunStatistics& work, const WrittenFiles& written);
+void report_end(std::ostream& out, const RunStatistics& statistics, const WrittenFiles& written);
 
 /// Lists the written files.
 void report_files(std::ostream& out, const WrittenFiles& written);

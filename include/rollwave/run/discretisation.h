@@ -27,7 +27,7 @@ struct MeshCache {
   std::string force_text;               ///< of the scene that force and load belong to
 
   /// Makes the dual problem that of a scene. @throws as StressFunction
-  StressFunction& dual_of(const Scene& scene, const RingSpace& space, RunStatistics& work);
+  StressFunction& dual_of(const Scene& scene, const RingSpace& space, RunStatistics& statistics);
 };
 
 /// A mesh with its space and its matrices; the members are listed in the order of their dependence.
@@ -37,7 +37,7 @@ struct Discretisation {
   /// that holds the zones of all of them
   /// @throws BadInput for a mesh without a node in the zone of possible contact
   Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                 RunStatistics& work,
+                 RunStatistics& statistics,
                  const std::optional<std::pair<double, double>>& shared_zone = {});
 
   std::unique_ptr<dealii::Triangulation<2>> triangulation;
@@ -53,7 +53,7 @@ struct Discretisation {
   /// to the old mesh. Returns false, and changes nothing, where the mesh would get too large or no
   /// cell is marked.
   bool refine(const std::vector<double>& indicators, const Scene& scene, const RunOptions& options,
-              RunStatistics& work);
+              RunStatistics& statistics);
 };
 
 /// The most cells that RefinementOptions::most_unknowns allow.

@@ -21,14 +21,14 @@ namespace rollwave {
  */
 Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
                   const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
-                  RunStatistics& work);
+                  RunStatistics& statistics);
 
 /// Guaranteed bounds of the distance c at which the work-conjugate load is G, by the same energies:
 /// the road is nearer than c + d where (E(c) - E(c + d))/d <= G is certified, and farther than c -
 /// d where G <= (E(c - d) - E(c))/d is. nullopt where no d up to a hundredth of c is large enough.
 std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
                                      const MeshSolution& solution, const CertifiedError& error,
-                                     MeshCache& cache, RunStatistics& work);
+                                     MeshCache& cache, RunStatistics& statistics);
 
 } // namespace rollwave
 

@@ -14,7 +14,7 @@ namespace rollwave {
 struct MeshFigures {
   unsigned int degree;
   unsigned int cells;
-  unsigned int dofs; ///< unknowns: hub, seam and hanging nodes are not counted
+  unsigned int n_unknowns; ///< unknowns: hub, seam and hanging nodes are not counted
   unsigned int contact_nodes;
   double h_min; ///< smallest cell diameter in (r, b z), a length
   double h_max; ///< largest cell diameter in (r, b z), a length
@@ -34,7 +34,7 @@ struct Bounds {
 /// One mesh of an adaptive run.
 struct CycleFigures {
   unsigned int cells;
-  unsigned int dofs;
+  unsigned int n_unknowns;
   unsigned int contact_steps;
   double indicated;                ///< sqrt(sum eta_K^2); 0 on the last mesh
   std::optional<double> certified; ///< CertifiedError::relative where it was computed
@@ -112,7 +112,7 @@ struct Result {
   bool is_interrupted = false; ///< by the user: the shortfalls say after what
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
-  RunStatistics work;
+  RunStatistics statistics;
   double peak_memory_mib = 0; ///< the largest of all processes
 };
 

@@ -46,9 +46,9 @@ Solution simulate(const Scene& scene, const RunOptions& options,
 
 /// The same on a given mesh, which may have served other scenes with the same mesh options and
 /// radii: only what depends on speed, force and zone is computed again where these differ.
-/// @param work the cost of the mesh, where it counts
+/// @param statistics the cost of the mesh, where it counts
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  RunStatistics work = RunStatistics(), const Progress& progress = {});
+                  RunStatistics statistics = RunStatistics(), const Progress& progress = {});
 
 } // namespace rollwave
 

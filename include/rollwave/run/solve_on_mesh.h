@@ -60,7 +60,7 @@ PressureProfile pressure_profile(const MeshSolution& solution);
 /// solver fails or a number is beyond what numbers can hold.
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& work);
+                           MeshCache& cache, RunStatistics& statistics);
 
 } // namespace rollwave
 

@@ -24,8 +24,8 @@ public:
   explicit AmgCg(const RingSpace& space) : space(space), pinned(space.dof_handler().n_dofs()) {}
 
   void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                  const RadialProducts& radial, RunStatistics& work) override;
-  FieldVector solve(const FieldVector& rhs, RunStatistics& work) override;
+                  const RadialProducts& radial, RunStatistics& statistics) override;
+  FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) override;
 
   const dealii::TrilinosWrappers::SparseMatrix& matrix() const { return stiffness; }
 
@@ -39,12 +39,12 @@ public:
   /// where that is higher; returns what is reached.
   /// @throws NotSolved when the iteration does not come that far.
   double improve(FieldVector& u, const FieldVector& rhs, const Scale& scale, double accuracy,
-                 RunStatistics& work);
+                 RunStatistics& statistics);
 
 private:
   double residual_norm(const FieldVector& u, const FieldVector& rhs) const;
-  void iterate(FieldVector& u, const FieldVector& rhs, double wanted, RunStatistics& work);
-  const BoomerAmg& multigrid(RunStatistics& work);
+  void iterate(FieldVector& u, const FieldVector& rhs, double wanted, RunStatistics& statistics);
+  const BoomerAmg& multigrid(RunStatistics& statistics);
 
   const RingSpace& space;
   MpiSession mpi;

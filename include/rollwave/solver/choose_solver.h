@@ -41,7 +41,7 @@ struct SolverChoice {
 /// @throws NotSolved as the kinds do.
 SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,
                            const ContactBoundary& boundary, const std::optional<FieldVector>& load,
-                           RunStatistics& work);
+                           RunStatistics& statistics);
 
 } // namespace rollwave
 

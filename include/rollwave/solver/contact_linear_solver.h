@@ -40,7 +40,7 @@ public:
   /// when it is zero; it and @p work must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
   virtual void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                           const std::optional<FieldVector>& load, RunStatistics& work) = 0;
+                           const std::optional<FieldVector>& load, RunStatistics& statistics) = 0;
 
   /// Solves with u_i given on the pinned nodes and N_i on the others; sets N_i on the pinned nodes
   /// and u_i on the others. All arrays have one entry for each contact node.

@@ -28,7 +28,7 @@ public:
         cholesky(space, candidates.contact_nodes()) {}
 
   void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                   const std::optional<FieldVector>& load, RunStatistics& work) override;
+                   const std::optional<FieldVector>& load, RunStatistics& statistics) override;
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> apply_compliance(const dealii::Vector<double>& force,
                                           double accuracy) override;
@@ -56,7 +56,7 @@ private:
   const RingSpace& space;
   const ContactBoundary candidates;
   ContactBoundary boundary; ///< of the scene
-  RunStatistics* work = nullptr;
+  RunStatistics* statistics = nullptr;
   std::optional<double> angular_velocity; ///< of the scene that is factorised
   SparseCholesky cholesky;
   dealii::LAPACKFullMatrix<double> factor; ///< L_cc

@@ -26,7 +26,7 @@ public:
 
   /// @throws NotEnoughMemory when the matrix and its multigrid hierarchy would not fit.
   void set_problem(const Scene& scene, const ContactBoundary& boundary,
-                   const std::optional<FieldVector>& load, RunStatistics& work) override;
+                   const std::optional<FieldVector>& load, RunStatistics& statistics) override;
 
   double solve(const std::vector<bool>& pinned, ContactState& state, double accuracy) override;
   dealii::Vector<double> apply_compliance(const dealii::Vector<double>& force,
@@ -47,7 +47,7 @@ private:
   const RingSpace& space;
   ContactBoundary boundary; ///< of the scene
   const std::optional<FieldVector>* load = nullptr;
-  RunStatistics* work = nullptr;
+  RunStatistics* statistics = nullptr;
   std::optional<double> angular_velocity; ///< of the matrix
   AmgCg system;
   FieldVector field; ///< u of the last solve, zero where a constraint holds

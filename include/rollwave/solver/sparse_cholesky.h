@@ -17,15 +17,15 @@ public:
       : space(space), last(last) {}
 
   void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                  const RadialProducts& radial, RunStatistics& work) override;
-  FieldVector solve(const FieldVector& rhs, RunStatistics& work) override;
+                  const RadialProducts& radial, RunStatistics& statistics) override;
+  FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) override;
 
   // set_matrix() in its steps; the first one does nothing when it is repeated:
   void number_unknowns(const dealii::AffineConstraints<double>& constraints);
   LowerTriplets assemble(const dealii::AffineConstraints<double>& constraints,
                          const RadialProducts& radial) const;
-  void analyse(const LowerTriplets& triplets, RunStatistics& work);
-  void factorise(RunStatistics& work);
+  void analyse(const LowerTriplets& triplets, RunStatistics& statistics);
+  void factorise(RunStatistics& statistics);
 
   CholmodFactor& factor() { return *cholesky; }
   const CholmodFactor& factor() const { return *cholesky; }

@@ -17,10 +17,10 @@ public:
   /// for their inhomogeneities.
   /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
   virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                          const RadialProducts& radial, RunStatistics& work) = 0;
+                          const RadialProducts& radial, RunStatistics& statistics) = 0;
 
   /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
-  virtual FieldVector solve(const FieldVector& rhs, RunStatistics& work) = 0;
+  virtual FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) = 0;
 };
 
 } // namespace rollwave

@@ -17,8 +17,7 @@
 namespace rollwave {
 
 /// Solves the runs of a study one after the other on the same processes. Runs on one mesh share it,
-/// and its factors at one speed, unless true errors are asked for: then each is timed in full,
-/// after a run that is not counted.
+/// and its factors at one speed, unless true errors are asked for: then each is timed in full.
 class StudySolver {
 public:
   /// @param study its parameters, whose files of each run go to directories in @p directory
@@ -32,8 +31,8 @@ public:
 private:
   using Settings = std::map<std::string, std::string>;
 
-  void warm_up();
   void solve(const RunPlan& plan, StudyRun& run);
+  Solution solve_timed(const RunPlan& plan);
   Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
   const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
 
