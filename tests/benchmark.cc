@@ -73,7 +73,7 @@ void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& 
   SparseCholesky cholesky(ring.space);
   cholesky.number_unknowns(ring.space.constraints());
   const LowerTriplets triplets =
-      cholesky.assemble(ring.space.constraints(), stiffness_products(ring.space, scene));
+      cholesky.assemble(ring.space.constraints(), stiffness_matrices(ring.space, scene));
   std::vector<double> plain, contact, ratio;
   for (int run = 0; run < 5; ++run) {
     plain.push_back(plain_seconds(ring.space.n_unknowns(), triplets));

@@ -4,7 +4,9 @@
 
 #include "draw.h"
 #include "manufactured_scene.h"
+#include "rollwave/error_bound/admissible_pressure.h"
 #include "rollwave/run/simulation.h"
+#include "rollwave/run/solve_on_mesh.h"
 #include "rollwave/scene/uniform_force.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
@@ -62,6 +64,9 @@ TEST(Certificate, HoldsForRandomScenes) {
                          1e-13 * std::abs(exact->norm_squared);
     EXPECT_LE(certified.lower_bound, exact->energy + floor);
     EXPECT_GE(certified.upper_bound, exact->energy - floor);
+    // |u| >= |v| - eta
+    EXPECT_GE(certified.relative * std::sqrt(exact->norm_squared) * (1 + 1e-6),
+              certified.energy_norm);
     const TrueErrors errors = measure_true_errors(solution.space(), solution.displacement,
                                                   solution.result, solution.certificate, *exact);
     EXPECT_GE(certified.energy_norm * (1 + 1e-6) + 1e-6 * std::sqrt(exact->norm_squared),
@@ -79,6 +84,32 @@ TEST(Certificate, HoldsForRandomScenes) {
   std::cout << n_checked << " scenes, largest effectivity " << worst
             << ", on adaptive meshes with more than "
             << "1000 unknowns " << worst_on_fine_adaptive << std::endl;
+}
+
+// The bound needs lambda >= 0, and the pressures of the edges add up to the discrete force.
+TEST(AdmissiblePressure, IsNowhereNegativeAndKeepsTheForce) {
+  for (const int degree : {1, 2, 4})
+    for (const int cells : {23, 48, 101}) {
+      const Parameters parameters =
+          with(paper_scenes()[0].parameters(),
+               {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
+                "Mesh/Angular cells=" + std::to_string(cells)});
+      RunStatistics statistics;
+      Discretisation mesh(make_scene(parameters), parameters, MPI_COMM_SELF, statistics);
+      const MeshSolution solution = solve_on_mesh(make_scene(parameters), parameters,
+                                                  mesh.candidates, {}, mesh.cache, statistics);
+      const auto pressures =
+          admissible_pressures(solution.boundary, solution.scene, solution.contact);
+      const double round_off = 1e-14 * solution.resultants.peak_pressure;
+      double force = 0;
+      for (unsigned int i = 0; i < pressures.size(); ++i) {
+        const SurfaceFace& face = mesh.space->surface_faces()[i];
+        EXPECT_GE(pressures[i](0), -round_off) << degree << ' ' << cells;
+        EXPECT_GE(pressures[i](1), -round_off) << degree << ' ' << cells;
+        force += solution.scene.outer_radius * (face.end - face.begin) * pressures[i].mean;
+      }
+      EXPECT_NEAR(force, solution.resultants.force, 1e-12 * force);
+    }
 }
 
 TEST(Certificate, HoldsForHigherDegrees) {

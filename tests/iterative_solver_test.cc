@@ -327,7 +327,7 @@ unsigned int count_iterations(const std::vector<std::string>& settings) {
 
   RunStatistics statistics;
   AmgCg solver(space);
-  solver.set_matrix(constraints, stiffness_products(space, scene), statistics);
+  solver.set_matrix(constraints, stiffness_matrices(space, scene), statistics);
   const FieldVector rhs = random_load(space, constraints);
   FieldVector u = space.make_field();
   const double size = rhs.l2_norm();

@@ -201,7 +201,7 @@ protected:
   /// The figures of all runs in study.csv that do not depend on the machine.
   std::vector<std::vector<double>> figures() const {
     const std::set<std::string> names = {
-        "mesh.n_unknowns",      "iterations.contact",       "contact.force",
+        "mesh.dofs",      "iterations.contact",       "contact.force",
         "error.exact_relative", "error.certified_relative", "energy.value"};
     std::istringstream lines(read("study.csv"));
     std::string line, field;

@@ -189,7 +189,7 @@ std::string orders(
     const double cells =
         std::ldexp(p.mesh.radial_cells * p.mesh.angular_cells, 2 * p.mesh.global_refinements);
     study.runs[i].emplace();
-    study.runs[i]->values = {{"mesh.n_unknowns", cells},
+    study.runs[i]->values = {{"mesh.dofs", cells},
                              {"error.exact_relative", factor(p) * std::pow(cells, -0.75)},
                              {"error.expected_order", 1.5}};
   }

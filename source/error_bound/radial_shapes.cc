@@ -77,19 +77,8 @@ const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
   return place->second;
 }
 
-/// On an interval, or on each of the pieces that it is cut into.
-QGauss<1> RadialShapesOfMesh::gauss(double begin, double end) const {
-  // With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose
-  // half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths. For polynomials of degree 2 p
-  // over r, n points err by rho^(2 p - 2 n). Fewer would not do: without contact the bound is an
-  // equality.
-  const double q = std::min(end / begin, 2.); // graded_rule() cuts longer intervals
-  const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
-  return QGauss<1>(lagrange.size() - 1 + std::max(2., std::ceil(6.5 / std::log10(rho))));
-}
-
 RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
-  const QGauss<1> points = gauss(begin, end);
+  const QGauss<1> points(points_for_pole(begin, end, lagrange.size() - 1));
   const RadialRule rule = graded_rule(begin, end, points);
   RadialShapes shapes;
   const StressFunctionBasis potential_shapes(scene, lagrange.size() - 1, begin, end);

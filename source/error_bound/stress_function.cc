@@ -1,6 +1,7 @@
 #include "rollwave/error_bound/stress_function.h"
 
 #include "rollwave/base/run_statistics.h"
+#include "rollwave/error_bound/dual_matrices.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/solver/amg_cg.h"
@@ -176,13 +177,8 @@ StressFunction::StressFunction(const RingSpace& space, const Scene& scene, Solve
   else
     solver = std::make_unique<SparseCholesky>(space);
   const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
-  solver->set_matrix(make_constraints(space, scene, no_pressures), products(), statistics);
-}
-
-RadialProducts StressFunction::products() {
-  return [this](double begin, double end) -> const ShapeProducts& {
-    return radial.on(begin, end).products;
-  };
+  solver->set_matrix(make_constraints(space, scene, no_pressures), dual_matrices(space, radial),
+                     statistics);
 }
 
 FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
@@ -190,7 +186,7 @@ FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePres
   const auto constraints = make_constraints(space, scene, pressures);
   const Vector<double> no_load(space.dof_handler().get_fe().n_dofs_per_cell());
   FieldVector load = space.make_field();
-  add_cell_matrices(space, products(), [&](const auto& dofs, const FullMatrix<double>& matrix) {
+  dual_matrices(space, radial)([&](const auto& dofs, const FullMatrix<double>& matrix) {
     if (std::any_of(dofs.begin(), dofs.end(),
                     [&](auto dof) { return constraints.is_inhomogeneously_constrained(dof); }))
       constraints.distribute_local_to_global(no_load, dofs, load, matrix);

@@ -4,7 +4,9 @@
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -14,88 +16,65 @@ using namespace dealii;
 
 namespace {
 
-/// int w L_i' L_j' dx and int v L_i L_j dx over an interval by a rule, L_i the polynomials on it.
-template <typename StiffnessFactor, typename MassFactor>
-ShapeProducts integrate_products(const std::vector<Polynomials::Polynomial<double>>& shapes,
-                                 double begin, double length, const RadialRule& rule,
-                                 const StiffnessFactor& w, const MassFactor& v) {
-  const unsigned int n = shapes.size();
-  ShapeProducts products = {FullMatrix<double>(n), FullMatrix<double>(n)};
-  std::vector<std::vector<double>> shape(n, std::vector<double>(2)); // value and derivative
-  for (unsigned int q = 0; q < rule.r.size(); ++q) {
-    const double x = rule.r[q], stiffness = w(x) * rule.weight[q], mass = v(x) * rule.weight[q];
-    for (unsigned int i = 0; i < n; ++i)
-      shapes[i].value((x - begin) / length, shape[i]);
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j) {
-        products.stiffness(i, j) += stiffness * ((shape[i][1] / length) * (shape[j][1] / length));
-        products.mass(i, j) += mass * (shape[i][0] * shape[j][0]);
-      }
-  }
-  return products;
-}
+using Cell = DoFHandler<2>::active_cell_iterator;
 
-/// Over [0, 1].
-ShapeProducts reference_products(unsigned int degree) {
-  const QGauss<1> gauss(degree + 1);
-  RadialRule rule = {{}, gauss.get_weights()};
-  for (const Point<1>& point : gauss.get_points())
-    rule.r.push_back(point[0]);
-  const auto one = [](double) { return 1.; };
-  return integrate_products(lobatto_lagrange(degree), 0, 1, rule, one, one);
-}
+/// Gauss' rules on cells: with degree + 1 points along z, which are exact, and along r as many as
+/// the factor 1/r needs, which depends on the ratio of the cell's radii.
+class RulesOfCells {
+public:
+  explicit RulesOfCells(const RingSpace& space) : space(space) {}
 
-/**
- * The matrix of a cell whose shape functions are products, number i + n j that of the radial
- * function i and the angular function j:
- *
- *     M_(i + n j)(k + n l) = stiffness_ik mass_jl length + mass_ik stiffness_jl / length,
- *
- * with the @p radial integrals first and those of the @p reference interval second.
- */
-void tensor_matrix(const ShapeProducts& radial, const ShapeProducts& reference, double length,
-                   FullMatrix<double>& matrix) {
-  const unsigned int n = radial.mass.m();
-  for (unsigned int j = 0; j < n; ++j)
-    for (unsigned int l = 0; l < n; ++l) {
-      const double mass = reference.mass(j, l) * length;
-      const double stiffness = reference.stiffness(j, l) / length;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int k = 0; k < n; ++k)
-          matrix(i + n * j, k + n * l) =
-              radial.stiffness(i, k) * mass + radial.mass(i, k) * stiffness;
+  const FEValues<2>& reinit(const Cell& cell) {
+    const double begin = cell->vertex(0)[0], end = cell->vertex(3)[0];
+    const auto& element = space.dof_handler().get_fe();
+    const unsigned int n_points = points_for_pole(begin, end, element.degree);
+    // One rule for all short cells with this number of points, and one for each long interval.
+    const auto key = std::pair(n_points, std::max(2., end / begin));
+    if (values.count(key) == 0) {
+      const Quadrature<1> along_r = graded_rule_on_reference(begin, end, QGauss<1>(n_points));
+      values.try_emplace(key, space.mapping(), element,
+                         QAnisotropic<2>(along_r, QGauss<1>(element.degree + 1)),
+                         update_gradients | update_quadrature_points | update_JxW_values);
     }
-}
+    values.at(key).reinit(cell);
+    return values.at(key);
+  }
+
+private:
+  const RingSpace& space;
+  std::map<std::pair<unsigned int, double>, FEValues<2>> values;
+};
 
 } // namespace
 
-void add_cell_matrices(const RingSpace& space, const RadialProducts& radial,
-                       const AddCellMatrix& add) {
-  const auto& element = space.dof_handler().get_fe();
-  const ShapeProducts reference = reference_products(element.degree);
-  FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
-  LexicographicDofs dofs(space.dof_handler());
-  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-    if (!cell->is_locally_owned())
-      continue;
-    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-    tensor_matrix(radial(low[0], high[0]), reference, high[1] - low[1], cell_matrix);
-    add(dofs.of(cell), cell_matrix);
-  }
-}
-
-RadialProducts stiffness_products(const RingSpace& space, const Scene& scene) {
-  return [known = std::map<std::pair<double, double>, ShapeProducts>(), scene,
-          shapes = lobatto_lagrange(space.dof_handler().get_fe().degree)](
-             double begin, double end) mutable -> const ShapeProducts& {
-    const auto [place, is_new] = known.try_emplace({begin, end});
-    if (is_new)
-      // Beside a polynomial of degree 2 n there is the factor 1/r: on pieces with the ratio 2
-      // twelve points more leave nothing but round-off.
-      place->second = integrate_products(
-          shapes, begin, end - begin, graded_rule(begin, end, QGauss<1>(shapes.size() + 12)),
-          [](double r) { return r; }, [&](double r) { return scene.alpha(r) * r; });
-    return place->second;
+CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene) {
+  return [&space, &scene](const AddCellMatrix& add) {
+    const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
+    RulesOfCells rules(space);
+    FullMatrix<double> cell_matrix(n);
+    std::vector<types::global_dof_index> dofs(n);
+    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+      if (!cell->is_locally_owned())
+        continue;
+      const FEValues<2>& values = rules.reinit(cell);
+      cell_matrix = 0;
+      for (const unsigned int q : values.quadrature_point_indices()) {
+        const double r = values.quadrature_point(q)[0], alpha = scene.alpha(r);
+        for (unsigned int i = 0; i < n; ++i) {
+          const Tensor<1, 2>& phi = values.shape_grad(i, q);
+          Tensor<1, 2> flux; // r (d_r phi_i, alpha d_z phi_i) dr dz
+          flux[0] = r * phi[0] * values.JxW(q);
+          flux[1] = r * alpha * phi[1] * values.JxW(q);
+          for (unsigned int j = 0; j <= i; ++j)
+            cell_matrix(i, j) += flux * values.shape_grad(j, q);
+        }
+      }
+      for (unsigned int i = 0; i < n; ++i) // it is symmetric
+        for (unsigned int j = i + 1; j < n; ++j)
+          cell_matrix(i, j) = cell_matrix(j, i);
+      cell->get_dof_indices(dofs);
+      add(dofs, cell_matrix);
+    }
   };
 }
 

@@ -22,6 +22,16 @@ std::vector<double> graded_radii(double begin, double end) {
   return radii;
 }
 
+unsigned int points_for_pole(double begin, double end, unsigned int degree) {
+  // With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose
+  // half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths. For polynomials of degree 2 p
+  // over r, n points err by rho^(2 p - 2 n). Fewer would not do: without contact the bound is an
+  // equality.
+  const double q = std::min(end / begin, 2.); // longer intervals are cut
+  const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
+  return degree + std::max(2., std::ceil(6.5 / std::log10(rho)));
+}
+
 RadialRule graded_rule(double begin, double end, const Quadrature<1>& points) {
   const std::vector<double> radii = graded_radii(begin, end);
   RadialRule rule;
@@ -32,6 +42,17 @@ RadialRule graded_rule(double begin, double end, const Quadrature<1>& points) {
       rule.weight.push_back(length * points.weight(q));
     }
   return rule;
+}
+
+Quadrature<1> graded_rule_on_reference(double begin, double end, const Quadrature<1>& points) {
+  const RadialRule rule = graded_rule(begin, end, points);
+  std::vector<Point<1>> places;
+  std::vector<double> weights;
+  for (unsigned int q = 0; q < rule.r.size(); ++q) {
+    places.emplace_back((rule.r[q] - begin) / (end - begin));
+    weights.push_back(rule.weight[q] / (end - begin));
+  }
+  return {places, weights};
 }
 
 } // namespace rollwave

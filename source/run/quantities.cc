@@ -39,7 +39,7 @@ Quantities mesh_quantities() {
        [](const Result& r) { return r.mesh.degree; }},
       {"mesh.cells", "cells", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.mesh.cells; }},
-      {"mesh.n_unknowns", "unknowns", "N", Quantity::count, Shown::table, all_digits,
+      {"mesh.dofs", "unknowns", "N", Quantity::count, Shown::table, all_digits,
        [](const Result& r) { return r.mesh.n_unknowns; }},
       {"mesh.contact_nodes", "nodes in the zone of possible contact", "", Quantity::count, 0,
        all_digits, [](const Result& r) { return r.mesh.contact_nodes; }},

@@ -38,7 +38,7 @@ struct Unpinned {
 
 } // namespace
 
-void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const RadialProducts& radial,
+void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const CellMatrices& matrices,
                        RunStatistics& /*statistics*/) {
   preconditioner.reset();
   const IndexSet& owned = space.dof_handler().locally_owned_dofs();
@@ -52,7 +52,7 @@ void AmgCg::set_matrix(const AffineConstraints<double>& constraints, const Radia
   require_memory(bytes_per_entry * pattern.trilinos_sparsity_pattern().NumMyNonzeros(),
                  "the system matrix with its multigrid hierarchy", space.communicator());
   stiffness.reinit(pattern);
-  add_cell_matrices(space, radial, [&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
+  matrices([&](const auto& dofs, const FullMatrix<double>& cell_matrix) {
     constraints.distribute_local_to_global(cell_matrix, dofs, stiffness);
   });
   stiffness.compress(VectorOperation::add);

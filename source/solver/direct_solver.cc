@@ -24,7 +24,7 @@ void DirectSolver::factorise(const Scene& scene) {
     LowerTriplets triplets;
     {
       const RunStatistics::Phase phase(*statistics, "assembly");
-      triplets = cholesky.assemble(space.constraints(), stiffness_products(space, scene));
+      triplets = cholesky.assemble(space.constraints(), stiffness_matrices(space, scene));
       ++statistics->stiffness_assemblies;
     }
     const RunStatistics::Phase phase(*statistics, "ordering");

@@ -20,7 +20,7 @@ void IterativeSolver::set_problem(const Scene& scene, const ContactBoundary& bou
     return;
   const RunStatistics::Phase phase(statistics, "assembly");
   angular_velocity.reset();
-  system.set_matrix(space.constraints(), stiffness_products(space, scene), statistics);
+  system.set_matrix(space.constraints(), stiffness_matrices(space, scene), statistics);
   ++statistics.stiffness_assemblies;
   angular_velocity = scene.angular_velocity;
 }

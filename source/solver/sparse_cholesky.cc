@@ -26,7 +26,7 @@ void SparseCholesky::number_unknowns(const AffineConstraints<double>& constraint
 }
 
 LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constraints,
-                                       const RadialProducts& radial) const {
+                                       const CellMatrices& matrices) const {
   const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
   LowerTriplets triplets;
   triplets.reserve(n * (n + 1) / 2 *
@@ -34,7 +34,7 @@ LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constrai
   // For each degree of freedom of a cell the unknown that it is, or the combination of unknowns
   // that its constraint names.
   std::vector<std::vector<std::pair<int, double>>> combinations(n);
-  add_cell_matrices(space, radial, [&](const auto& dofs, const FullMatrix<double>& matrix) {
+  matrices([&](const auto& dofs, const FullMatrix<double>& matrix) {
     for (unsigned int i = 0; i < n; ++i) {
       combinations[i].clear();
       if (unknown_of_dof[dofs[i]] >= 0)
@@ -74,9 +74,9 @@ void SparseCholesky::factorise(RunStatistics& statistics) {
 }
 
 void SparseCholesky::set_matrix(const AffineConstraints<double>& constraints,
-                                const RadialProducts& radial, RunStatistics& statistics) {
+                                const CellMatrices& matrices, RunStatistics& statistics) {
   number_unknowns(constraints);
-  analyse(assemble(constraints, radial), statistics);
+  analyse(assemble(constraints, matrices), statistics);
   factorise(statistics);
 }
 

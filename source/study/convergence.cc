@@ -49,8 +49,8 @@ Fit fit(const std::vector<double>& x, const std::vector<double>& y) {
 std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   std::vector<unsigned int> meshes;
   for (const unsigned int run : family.runs)
-    if (const auto unknowns = study.value(run, "mesh.n_unknowns");
-        unknowns && (meshes.empty() || unknowns != study.value(meshes.back(), "mesh.n_unknowns")))
+    if (const auto unknowns = study.value(run, "mesh.dofs");
+        unknowns && (meshes.empty() || unknowns != study.value(meshes.back(), "mesh.dofs")))
       meshes.push_back(run);
   return meshes;
 }
@@ -66,7 +66,7 @@ bool is_known(const Study& study, const std::vector<unsigned int>& meshes,
 void print_errors(std::ostream& out, const Study& study, const std::vector<unsigned int>& meshes) {
   dealii::ConvergenceTable table;
   for (const unsigned int run : meshes)
-    table.add_value("N", static_cast<unsigned int>(*study.value(run, "mesh.n_unknowns")));
+    table.add_value("N", static_cast<unsigned int>(*study.value(run, "mesh.dofs")));
   for (const ResultQuantity& error : errors()) {
     const std::string &name = error.name, title = error.symbol;
     if (is_known(study, meshes, name)) {
@@ -94,7 +94,7 @@ void print_fits(std::ostream& out, const Study& study, std::vector<unsigned int>
     if (is_known(study, meshes, name)) {
       std::vector<double> x, y;
       for (const unsigned int run : meshes) {
-        x.push_back(std::log(*study.value(run, "mesh.n_unknowns")) / 2);
+        x.push_back(std::log(*study.value(run, "mesh.dofs")) / 2);
         y.push_back(-std::log(*study.value(run, name)));
       }
       const Fit order = fit(x, y);

@@ -207,7 +207,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
          {std::tuple("study-h", "mesh.h_max",
                      "largest diameter of a cell h" + study.units().in_brackets(Quantity::length),
                      1.),
-          {"study-unknowns", "mesh.n_unknowns", std::string("unknowns"), -0.5},
+          {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
   if (!x.empty())

@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
 #define ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
 
-#include "rollwave/mesh/assembly.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
@@ -44,6 +43,13 @@ private:
   double depth;                                               ///< s(begin) - s(end)
   std::vector<dealii::Polynomials::Polynomial<double>> modes; ///< Legendre's, on [0, 1]
   dealii::FullMatrix<double> coefficients; ///< (i, j) of shape i over primitive j
+};
+
+/// The integrals of products of two shape functions, or of their derivatives, over one direction of
+/// a cell: n x n, n = degree + 1.
+struct ShapeProducts {
+  dealii::FullMatrix<double> mass;
+  dealii::FullMatrix<double> stiffness;
 };
 
 /// Shape functions of one number at one point.
@@ -89,7 +95,6 @@ public:
   const RadialShapes& on(double begin, double end);
 
 private:
-  dealii::QGauss<1> gauss(double begin, double end) const;
   RadialShapes make(double begin, double end) const;
 
   const Scene scene;

@@ -4,7 +4,6 @@
 #include "rollwave/error_bound/admissible_pressure.h"
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/radial_shapes.h"
-#include "rollwave/mesh/assembly.h"
 #include "rollwave/mesh/ring_space.h"
 #include "rollwave/solver/choose_solver.h"
 #include "rollwave/solver/spd_solver.h"
@@ -53,8 +52,6 @@ public:
   RadialShapesOfMesh& shapes() { return radial; }
 
 private:
-  RadialProducts products();
-
   const RingSpace& space;
   const double speed;
   RadialShapesOfMesh radial;

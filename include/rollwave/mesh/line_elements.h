@@ -21,8 +21,16 @@ struct RadialRule {
 /// integrands that are smooth except for a pole at r = 0.
 std::vector<double> graded_radii(double begin, double end);
 
+/// The number of Gauss' points on such a piece that integrate 1/r times a polynomial of degree
+/// 2 @p degree to 1e-13.
+unsigned int points_for_pole(double begin, double end, unsigned int degree);
+
 /// @p points on each of these pieces.
 RadialRule graded_rule(double begin, double end, const dealii::Quadrature<1>& points);
+
+/// The same on [0, 1], to which the interval is scaled.
+dealii::Quadrature<1> graded_rule_on_reference(double begin, double end,
+                                               const dealii::Quadrature<1>& points);
 
 } // namespace rollwave
 

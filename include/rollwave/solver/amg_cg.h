@@ -24,7 +24,7 @@ public:
   explicit AmgCg(const RingSpace& space) : space(space), pinned(space.dof_handler().n_dofs()) {}
 
   void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                  const RadialProducts& radial, RunStatistics& statistics) override;
+                  const CellMatrices& matrices, RunStatistics& statistics) override;
   FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) override;
 
   const dealii::TrilinosWrappers::SparseMatrix& matrix() const { return stiffness; }

@@ -17,13 +17,13 @@ public:
       : space(space), last(last) {}
 
   void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                  const RadialProducts& radial, RunStatistics& statistics) override;
+                  const CellMatrices& matrices, RunStatistics& statistics) override;
   FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) override;
 
   // set_matrix() in its steps; the first one does nothing when it is repeated:
   void number_unknowns(const dealii::AffineConstraints<double>& constraints);
   LowerTriplets assemble(const dealii::AffineConstraints<double>& constraints,
-                         const RadialProducts& radial) const;
+                         const CellMatrices& matrices) const;
   void analyse(const LowerTriplets& triplets, RunStatistics& statistics);
   void factorise(RunStatistics& statistics);
 

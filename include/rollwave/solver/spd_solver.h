@@ -12,12 +12,11 @@ class SpdSolver {
 public:
   virtual ~SpdSolver() = default;
 
-  /// Takes the matrix of a form by its radial integrals, those of stiffness_products() or of the
-  /// dual form, in which couplings are as strong. Later calls must have the same @p constraints but
-  /// for their inhomogeneities.
+  /// Sets up for the sum of the @p matrices of cells. Later calls must have the same
+  /// @p constraints except for their inhomogeneities.
   /// @throws NotEnoughMemory, or NotSolved where the sum is not positive definite
   virtual void set_matrix(const dealii::AffineConstraints<double>& constraints,
-                          const RadialProducts& radial, RunStatistics& statistics) = 0;
+                          const CellMatrices& matrices, RunStatistics& statistics) = 0;
 
   /// The solution for @p rhs, which obeys homogeneous constraints; zero where a constraint holds.
   virtual FieldVector solve(const FieldVector& rhs, RunStatistics& statistics) = 0;

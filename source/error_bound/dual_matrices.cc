@@ -1,0 +1,70 @@
+#include "rollwave/error_bound/dual_matrices.h"
+
+#include "rollwave/mesh/line_elements.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// int L_i L_j dt and int L_i' L_j' dt over [0, 1], L_i the polynomials along z.
+ShapeProducts angular_products(unsigned int degree) {
+  const auto shapes = lobatto_lagrange(degree);
+  const QGauss<1> gauss(degree + 1);
+  ShapeProducts products = {FullMatrix<double>(degree + 1), FullMatrix<double>(degree + 1)};
+  std::vector<double> one(2), other(2); // value and derivative
+  for (unsigned int q = 0; q < gauss.size(); ++q)
+    for (unsigned int i = 0; i <= degree; ++i)
+      for (unsigned int j = 0; j <= degree; ++j) {
+        shapes[i].value(gauss.point(q)[0], one);
+        shapes[j].value(gauss.point(q)[0], other);
+        products.mass(i, j) += gauss.weight(q) * one[0] * other[0];
+        products.stiffness(i, j) += gauss.weight(q) * one[1] * other[1];
+      }
+  return products;
+}
+
+/**
+ * The matrix of a cell whose shape functions are products, number i + n j that of the radial
+ * function i and the angular function j:
+ *
+ *     M_(i + n j)(k + n l) = stiffness_ik mass_jl length + mass_ik stiffness_jl / length,
+ *
+ * with the @p radial integrals first and the @p angular ones, on [0, 1], second.
+ */
+void tensor_matrix(const ShapeProducts& radial, const ShapeProducts& angular, double length,
+                   FullMatrix<double>& matrix) {
+  const unsigned int n = radial.mass.m();
+  for (unsigned int j = 0; j < n; ++j)
+    for (unsigned int l = 0; l < n; ++l) {
+      const double mass = angular.mass(j, l) * length;
+      const double stiffness = angular.stiffness(j, l) / length;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < n; ++k)
+          matrix(i + n * j, k + n * l) =
+              radial.stiffness(i, k) * mass + radial.mass(i, k) * stiffness;
+    }
+}
+
+} // namespace
+
+CellMatrices dual_matrices(const RingSpace& space, RadialShapesOfMesh& shapes) {
+  return [&](const AddCellMatrix& add) {
+    const auto& element = space.dof_handler().get_fe();
+    const ShapeProducts angular = angular_products(element.degree);
+    FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
+    LexicographicDofs dofs(space.dof_handler());
+    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+      if (!cell->is_locally_owned())
+        continue;
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      tensor_matrix(shapes.on(low[0], high[0]).products, angular, high[1] - low[1], cell_matrix);
+      add(dofs.of(cell), cell_matrix);
+    }
+  };
+}
+
+} // namespace rollwave
