@@ -184,37 +184,36 @@ TEST(Certificate, IsAnEqualityWithoutContact) {
 // than u_h. The effectivity grows like the number of cells across the contact: as many as the
 // wanted error needs of the pressure, or until cells are as short as the ring is thick.
 TEST(Certificate, IsSharpInThinRings) {
-  for (const double a : {0.9, 0.99, 0.999})
-    for (const double omega : {0., 0.9, 1.}) {
+  constexpr double wanted = 0.01;
+  for (const double a : {0.9, 0.999})
+    for (const double omega : {0., 1.}) {
       std::optional<ExactSolution> exact;
-      for (const int degree : {1, 2})
-        for (const double wanted : {0.01}) {
-          const std::vector<std::string> settings = {"Cylinder/Inner radius=" + digits(a),
-                                                     "Cylinder/Angular velocity=" + digits(omega),
-                                                     "Road/Distance=" + digits((1 + a) / 2),
-                                                     "Mesh/Degree=" + std::to_string(degree),
-                                                     "Mesh/Radial cells=2",
-                                                     "Mesh/Angular cells=120",
-                                                     "Mesh/Wanted relative error=" + digits(wanted),
-                                                     "Mesh/Most unknowns=40000"};
-          SCOPED_TRACE(testing::PrintToString(settings));
-          const Parameters parameters = parameters_of(settings);
-          const Scene scene = make_scene(parameters);
-          if (!exact)
-            exact = find_exact_solution(scene);
-          ASSERT_TRUE(exact);
-          const Solution solution = simulate(scene, parameters);
-          EXPECT_TRUE(solution.result.shortfalls.empty());
-          EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
-          EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
-          const TrueErrors errors =
-              measure_true_errors(solution.space(), solution.displacement, solution.result,
-                                  solution.certificate, *exact);
-          const double n_cells = std::min(std::pow(wanted, -1. / degree),
-                                          2 * solution.result.patch.half_width() / (1 - a));
-          EXPECT_LE(*errors.effectivity, 2 + n_cells / 2)
-              << solution.result.mesh.n_unknowns << " unknowns";
-        }
+      for (const int degree : {1, 2}) {
+        const std::vector<std::string> settings = {"Cylinder/Inner radius=" + digits(a),
+                                                   "Cylinder/Angular velocity=" + digits(omega),
+                                                   "Road/Distance=" + digits((1 + a) / 2),
+                                                   "Mesh/Degree=" + std::to_string(degree),
+                                                   "Mesh/Radial cells=2",
+                                                   "Mesh/Angular cells=120",
+                                                   "Mesh/Wanted relative error=" + digits(wanted),
+                                                   "Mesh/Most unknowns=40000"};
+        SCOPED_TRACE(testing::PrintToString(settings));
+        const Parameters parameters = parameters_of(settings);
+        const Scene scene = make_scene(parameters);
+        if (!exact)
+          exact = find_exact_solution(scene);
+        ASSERT_TRUE(exact);
+        const Solution solution = simulate(scene, parameters);
+        EXPECT_TRUE(solution.result.shortfalls.empty());
+        EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
+        EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
+        const TrueErrors errors = measure_true_errors(
+            solution.space(), solution.displacement, solution.result, solution.certificate, *exact);
+        const double n_cells = std::min(std::pow(wanted, -1. / degree),
+                                        2 * solution.result.patch.half_width() / (1 - a));
+        EXPECT_LE(*errors.effectivity, 2 + n_cells / 2)
+            << solution.result.mesh.n_unknowns << " unknowns";
+      }
     }
 }
 

@@ -111,7 +111,7 @@ TEST(ExactSolution, WithoutContactIsTheContactFreeSolution) {
 
 TEST(ExactSolution, ForceIsTheSlopeOfTheEnergy) {
   // dJ/dc = -G, and F < G < F / cos(w).
-  for (const double omega : {0., 0.999, 1.}) {
+  for (const double omega : {0., 1.}) {
     const auto at = [&](double c) { return solve_exactly({0.2, 1, omega, c, 0.1}); };
     const double slope = -(at(0.801).energy - at(0.799).energy) / 0.002;
     const ExactSolution middle = at(0.8);

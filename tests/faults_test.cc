@@ -246,7 +246,7 @@ TEST_F(Faults, KilledAtAnyMomentLeavesCompleteFiles) {
 
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> share(0.3, 1.1);
-  for (unsigned int i = 0; i < 12; ++i) {
+  for (unsigned int i = 0; i < 6; ++i) {
     fs::remove_all(directory / "out");
     RunningProgram program(arguments(settings));
     std::this_thread::sleep_for(share(random) * duration);

@@ -200,9 +200,12 @@ class StudyOnProcesses : public Processes {
 protected:
   /// The figures of all runs in study.csv that do not depend on the machine.
   std::vector<std::vector<double>> figures() const {
-    const std::set<std::string> names = {
-        "mesh.dofs",      "iterations.contact",       "contact.force",
-        "error.exact_relative", "error.certified_relative", "energy.value"};
+    const std::set<std::string> names = {"mesh.dofs",
+                                         "iterations.contact",
+                                         "contact.force",
+                                         "error.exact_relative",
+                                         "error.certified_relative",
+                                         "energy.value"};
     std::istringstream lines(read("study.csv"));
     std::string line, field;
     std::getline(lines, line);

@@ -1,6 +1,7 @@
 // Every value a key admits is read, everything else is refused in one message with all that helps.
 #include "own_path.h"
 #include "rollwave/base/errors.h"
+#include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
@@ -416,6 +417,17 @@ TEST(Settings, RefuseWhatIsNotOfTheGrammar) {
            {"subsection Mesh\nset Degree = 1\nset Degree = 2\nend\n", "Degree"},
            {"include scene.prm\n", "line 1"}})
     expect_parts(refusal_of_text(text), {"scene.prm", part});
+}
+
+TEST(Settings, RefuseArgumentsThatAreNotUnderstood) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"--nonsense"},
+                                             {"a.prm", "b.prm"},
+                                             {"a.prm", "--set"},
+                                             {"a.prm", "--set", "Mesh"},
+                                             {"a.prm", "--output"}})
+    EXPECT_THROW(read_command_line(arguments), BadInput) << testing::PrintToString(arguments);
 }
 
 TEST(Settings, RefuseAFileThatCannotBeRead) {

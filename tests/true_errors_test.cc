@@ -82,17 +82,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
   for (const char* scene_key : {"Cylinder/Angular velocity=0", "Cylinder/Angular velocity=1",
-                                "Road/Contact zone=4.450589592585541, 4.974188368183839"})
+                                "Road/Contact zone=4.450589592585541, 4.974188368183839"}) {
+    const auto exact = find_exact_solution(make_scene(parameters_of({scene_key})));
+    ASSERT_TRUE(exact);
     for (const int degree : {1, 2}) {
       const Parameters parameters =
           parameters_of({scene_key, "Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
                          "Mesh/Angular cells=24", "Mesh/Adaptive cycles=1000"});
-      const auto exact = find_exact_solution(make_scene(parameters));
-      ASSERT_TRUE(exact);
       double errors[2], unknowns[2];
       for (const int i : {0, 1}) {
         const Parameters own =
-            with(parameters, {i == 0 ? "Mesh/Most unknowns=3000" : "Mesh/Most unknowns=60000"});
+            with(parameters, {i == 0 ? "Mesh/Most unknowns=3000" : "Mesh/Most unknowns=40000"});
         const Solution solution = simulate(make_scene(own), own);
         errors[i] = measure_true_errors(solution.space(), solution.displacement, solution.result,
                                         solution.certificate, *exact)
@@ -105,6 +105,7 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
       EXPECT_GT(order, 0.93 * degree) << scene_key;
       EXPECT_LT(order, 1.35 * degree) << scene_key;
     }
+  }
 }
 
 TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
