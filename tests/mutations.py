@@ -17,7 +17,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('contact/contact_patch', 'root_of_gap(2, 4)', 'root_of_gap(1, 4)'),
     ('contact/contact_patch', 'lowest_point - tangent', 'lowest_point + tangent'),
     ('contact/contact_patch', '1. / 3 : 1. / 2', '1. / 2 : 1. / 3'),
-    ('contact/load_control', 'stiffness.work_conjugate -=', 'stiffness.work_conjugate +='),
+    ('contact/load_control', '(near.work_conjugate - far.work_conjugate)', '(far.work_conjugate - near.work_conjugate)'),
     ('contact/load_control', '(excess > 0 ? near : far) = distance', '(excess < 0 ? near : far) = distance'),
     ('contact/uzawa', 'p(i) - rho * (displacement(i) - problem.road(i))', 'p(i) + rho * (displacement(i) - problem.road(i))'),
     ('error_bound/error_bound', 'eta * eta / 2 -', 'eta * eta -'),
@@ -35,7 +35,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('error_bound/stress_function', 'mean - slope * (1 - t) / 2', 'mean + slope * (1 - t) / 2'),
     ('exact/exact_solution', 'solution.norm_squared / 2 - work_of_f', 'solution.norm_squared / 2 + work_of_f'),
     ('exact/exact_solution', 'work_of_f - pressure_times_road', 'work_of_f + pressure_times_road'),
-    ('exact/exact_solution', 'late * late / (early - late)', 'late * late / (early + late)'),
+    ('exact/exact_solution', 'work_of_f_alone - scene', 'work_of_f_alone + scene'),
     ('exact/galerkin_pressure', 'free - road.displacement(x)', 'road.displacement(x) - free'),
     ('exact/galerkin_pressure', 'std::pow(k * w, -2 * nu - 1)', 'std::pow(k * w, -2 * nu)'),
     ('exact/galerkin_pressure', 'weight.back() -= 2. / 24', 'weight.back() += 2. / 24'),
@@ -56,7 +56,7 @@ for name, right, wrong in MUTATIONS:
     path.write_text(original.replace(right, wrong, 1))
     try:
         built = subprocess.run(['cmake', '--build', build, '--target', 'rollwave_tests'], capture_output=True)
-        run = subprocess.run(['timeout', '300', build / 'tests/rollwave_tests', '--gtest_brief=1',
+        run = subprocess.run(['timeout', '600', build / 'tests/rollwave_tests', '--gtest_brief=1',
                               '--gtest_fail_fast', f'--gtest_filter={TESTS}'], capture_output=True, text=True)
     finally:
         path.write_text(original)
@@ -64,7 +64,7 @@ for name, right, wrong in MUTATIONS:
         print(f'not built   {name}: {wrong}', flush=True)
         continue
     failed = [line for line in run.stdout.splitlines() if 'FAILED  ]' in line]
-    survivors += not failed
-    print(f'{"caught  " if failed else "SURVIVED"}    {name}: {wrong}    '
+    survivors += run.returncode == 0
+    print(f'{"SURVIVED" if run.returncode == 0 else "caught  "}    {name}: {wrong}    '
           f'{failed[0].split()[3] if failed else f"exit code {run.returncode}"}', flush=True)
 sys.exit(survivors > 0)

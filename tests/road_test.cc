@@ -53,10 +53,6 @@ TEST(Road, DerivativesAreThoseOfItsShape) {
                   1e-8);
       EXPECT_NEAR(road.distance_derivative(x),
                   (at(0.8 + h).displacement(x) - at(0.8 - h).displacement(x)) / (2 * h), 1e-8);
-      EXPECT_NEAR(road.second_distance_derivative(x),
-                  (at(0.8 + h).distance_derivative(x) - at(0.8 - h).distance_derivative(x)) /
-                      (2 * h),
-                  1e-8);
     }
   }
 }

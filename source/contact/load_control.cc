@@ -77,18 +77,6 @@ ContactState rate_of_approach(ContactLinearSolver& solver, const ContactProblem&
   return solver.derivative(solution.active, displacement, final_accuracy);
 }
 
-/// -d/dc of the loads while the same nodes stay in contact. For the work-conjugate load
-/// G = sum_i N_i g_i, g_i = dphi/dc(z_i), the change of g_i counts too.
-Loads stiffness_of_set(const ContactProblem& problem, const ContactSolution& solution,
-                       const ContactState& rate) {
-  Loads stiffness = loads_of(problem, rate.force);
-  for (unsigned int i = 0; i < problem.size(); ++i)
-    if (solution.active[i])
-      stiffness.work_conjugate -=
-          solution.state.force(i) * problem.shape.second_distance_derivative(problem.x[i]);
-  return stiffness;
-}
-
 /// How much nearer the road comes while contact grows by about @p n_cells cells at an end, the
 /// largest of all ends. A node at the end entered contact force / force rate ago, and its neighbour
 /// outside follows after gap / gap rate.
@@ -120,7 +108,7 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
                         const Scene& scene, const ContactProblem& problem,
                         const ContactSolution& solution, unsigned int most_steps) {
   const ContactState rate = rate_of_approach(solver, problem, solution);
-  const Loads of_set = stiffness_of_set(problem, solution, rate);
+  const Loads of_set = loads_of(problem, rate.force); // while the same nodes stay in contact
   if (!(of_set.total > 0))
     return of_set;
   // The nodes at the ends come and go alike after each cell: two cells average over them.
@@ -176,8 +164,10 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
         (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent) ||
          road.distance == limits.near))
       return road;
+    // While the same nodes stay in contact. The change of dphi/dc, which is 0 on a flat road, is
+    // left out of that of the work-conjugate load.
     const double stiffness =
-        stiffness_of_set(problem, contact, rate_of_approach(solver, problem, contact)).of(kind);
+        loads_of(problem, rate_of_approach(solver, problem, contact).force).of(kind);
     road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
                                                : std::nullopt);
   }

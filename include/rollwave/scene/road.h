@@ -32,9 +32,6 @@ struct Road {
   /// dphi/dc = cos x + m sin^2 x / S, which is 1 / cos x on a flat road
   double distance_derivative(double x) const;
 
-  /// d^2 phi/dc^2 = kappa sin^2 x / S^3
-  double second_distance_derivative(double x) const;
-
   /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
   /// does not reach so far; 0 where the surface is above the road.
   double crossing_angle(double free) const;
