@@ -76,8 +76,8 @@ double bulk_threshold(const Vector<double>& indicators, double fraction, MPI_Com
   return (1 - 1e-6) * low;
 }
 
-/// How far the ring reaches for what varies in z: sin(k z) varies in r like exp(+-k s), where s
-/// grows by int alpha^(1/2) dr from hub to surface.
+/// The thickness of the ring in the coordinate s = int alpha^(1/2) dr, in which sin(k z) decays like
+/// exp(-k s).
 double natural_depth(const Scene& scene) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   const QGauss<1> gauss(20);
@@ -120,7 +120,7 @@ void share_flags(Triangulation<2>& triangulation) {
       });
 }
 
-/// Flags the cells that must be cut with those that are flagged.
+/// Flags further cells where cutting the flagged ones makes it necessary.
 /// @return the number of flagged cells of all processes
 double complete_flags(Triangulation<2>& triangulation, double depth) {
   for (double count = -1;;) { // until no process has more to pass on

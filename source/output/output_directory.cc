@@ -60,7 +60,7 @@ bool is_input(const Parameters& parameters, const fs::path& path) {
   return fs::equivalent(parameters.file, path, ignored);
 }
 
-/// Removes the own files of a directory that are not @p kept.
+/// Removes the files of an earlier run in a directory, except those that are @p kept.
 void remove_files(const fs::path& directory, const Parameters& parameters,
                   const std::function<bool(const std::string&)>& kept,
                   std::vector<std::string>& removed) {

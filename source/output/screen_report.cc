@@ -20,8 +20,8 @@ using namespace dealii;
 
 namespace {
 
-/// Prints a table. On a stream that has failed deal.II throws, and the files would be lost with the
-/// screen.
+/// Prints a table. It is made as a text first: deal.II throws on a stream that has failed, and then
+/// no file would be written.
 void print_table(std::ostream& out, const TableHandler& table) {
   std::ostringstream text;
   table.write_text(text, TableHandler::table_with_headers);

@@ -15,7 +15,7 @@ using Quantities = std::vector<ResultQuantity>;
 constexpr unsigned int all_digits = 9;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// A number of a part that results may lack.
+/// A number of an optional part of a result; nullopt without that part.
 template <typename Part>
 auto of(std::optional<Part> Result::*part, double Part::*number) {
   return [part, number](const Result& result) {
@@ -23,7 +23,7 @@ auto of(std::optional<Part> Result::*part, double Part::*number) {
   };
 }
 
-/// The same where the part may lack the number.
+/// The same where the number is optional too.
 template <typename Part>
 auto of(std::optional<Part> Result::*part, std::optional<double> Part::*number) {
   return [part, number](const Result& result) {

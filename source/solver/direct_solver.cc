@@ -157,7 +157,7 @@ FieldVector DirectSolver::displacement_field(const ContactState& state) {
   Vector<double> displacement = on_candidates(state.displacement), force(schur.m());
   solve_dense(on_candidates(std::vector<bool>(state.displacement.size(), true)), contact_load,
               displacement, force);
-  // With this right-hand side the last rows of L^T x = rhs return the displacement given.
+  // With this right-hand side the last rows of L^T x = rhs give the prescribed displacement.
   Vector<double> trailing(schur.m());
   factor.Tvmult(trailing, displacement);
   std::copy(trailing.begin(), trailing.end(), rhs.end() - trailing.size());

@@ -38,8 +38,8 @@ struct RefinementOptions {
 /// How often a run refines its mesh at most.
 unsigned int most_cycles(const RefinementOptions& options);
 
-/// True if so many more cells fit that a further mesh is worth its solution: a fifth, with
-/// Marking::all three times as many as there are.
+/// True if a further mesh is worth its solution: a fifth more cells fit or, with Marking::all, four
+/// times as many.
 bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking marking,
                         double most_cells);
 

@@ -52,7 +52,7 @@ struct ShapeProducts {
   dealii::FullMatrix<double> stiffness;
 };
 
-/// Shape functions of one number at one point.
+/// The values of the shape functions number i at one point.
 struct RadialShape {
   double value;       ///< of a displacement: L_i((r - begin)/(end - begin))
   double derivative;  ///< d/dr of it

@@ -79,7 +79,7 @@ public:
   /// The values of a field at the surface nodes, on every process.
   std::vector<double> surface_values(const FieldVector& field) const;
 
-  /// dissect(), when first asked for. For one process.
+  /// The order of dissect(), computed when it is first asked for; on one process only.
   const std::vector<dealii::types::global_dof_index>& elimination_order() const;
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
