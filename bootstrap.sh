@@ -63,7 +63,7 @@ run)
   root=$PWD
   [ $# -gt 0 ] || set -- "$root/prm/figure-4.prm"
   cd "$started_in"
-  exec "$root/build/rollwave" "$@"
+  "$root/build/rollwave" "$@"
   ;;
 test)
   shift

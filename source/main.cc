@@ -89,6 +89,8 @@ int main(int argc, char* argv[]) {
     return fail(error.what(), 1);
   } catch (const NotWritten& error) {
     return fail(std::string("not written: ") + error.what(), 3);
+  } catch (const TargetNotReached& error) {
+    return fail(std::string("target not reached: ") + error.what(), 2);
   } catch (const NotSolved& error) {
     return fail(std::string("not solved: ") + error.what(), 2);
   } catch (const std::bad_alloc&) {

@@ -42,6 +42,7 @@ void make_study(Study& study, const Parameters& parameters, MPI_Comm communicato
 /// Adds the errors to the result, where the exact solution is known.
 void verify(Solution& solution, std::ostream& out) {
   const Scene& scene = solution.scene;
+  const RunStatistics::Phase phase(solution.result.statistics, "verification");
   std::string why;
   if (const auto exact = find_exact_solution(scene, &why)) {
     solution.result.errors = measure_true_errors(solution.space(), solution.displacement,
@@ -72,7 +73,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
   }
   report_end(out, solution.result.statistics, written);
   if (!solution.result.shortfalls.empty())
-    throw NotSolved(shortfall_text(solution.result));
+    throw TargetNotReached(shortfall_text(solution.result));
 }
 
 } // namespace

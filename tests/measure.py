@@ -110,8 +110,8 @@ def figures():
         error = run['error']
         rows.append([name, run['mesh']['dofs'], error['exact_force'] / run['contact']['force'],
                      error['exact_relative'], error['certified_relative'],
-                     run['seconds']['total']])
-    return [table(['scene', 'unknowns', 'error of F', 'error in the energy norm', 'certified',
+                     run['seconds']['total'] - run['seconds']['verification']])
+    return [table(['scene', 'unknowns', 'relative error of F', 'error in the energy norm', 'certified',
                    'seconds'], rows)] * 2
 
 
@@ -187,9 +187,9 @@ def wanted():
             rows.append([name, error, run['mesh']['dofs'], len(run['cycles']),
                          run['error']['certified_relative'], run['error'].get('exact_relative', '-'),
                          run['error']['exact_force'] / run['contact']['force'],
-                         run['seconds']['total']])
-    return [table(['scene', 'wanted', 'unknowns', 'meshes', 'certified', 'true error', 'error of F',
-                   'seconds'], rows)] * 2
+                         run['seconds']['total'] - run['seconds']['verification']])
+    return [table(['scene', 'wanted', 'unknowns', 'meshes', 'certified', 'true error',
+                   'relative error of F', 'seconds'], rows)] * 2
 
 
 def uniform(degree, radial, angular):

@@ -43,7 +43,7 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
 }
 
 TEST(Remarks, TellWhenTheModelIsNotMeantForIt) {
-  EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=10"}), "exceeds the ring thickness"));
+  EXPECT_TRUE(have(remarks_with({"Road/Distance=0.55"}), "linear model"));
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=100"}), "the end of the automatic zone"));
 }
 

@@ -76,8 +76,8 @@ double bulk_threshold(const Vector<double>& indicators, double fraction, MPI_Com
   return (1 - 1e-6) * low;
 }
 
-/// The thickness of the ring in the coordinate s = int alpha^(1/2) dr, in which sin(k z) decays like
-/// exp(-k s).
+/// The thickness of the ring in the coordinate s = int alpha^(1/2) dr, in which sin(k z) decays
+/// like exp(-k s).
 double natural_depth(const Scene& scene) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   const QGauss<1> gauss(20);

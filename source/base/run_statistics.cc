@@ -21,9 +21,9 @@ const std::string& checked(const std::string& name) {
 
 const std::vector<std::string>& RunStatistics::phase_names() {
   static const std::vector<std::string> names = {
-      "mesh",          "space",          "assembly",    "ordering",
-      "factorisation", "preconditioner", "contact",     "back-substitution",
-      "measurement",   "indicator",      "certificate", "output"};
+      "mesh",           "space",   "assembly",          "ordering",    "factorisation",
+      "preconditioner", "contact", "back-substitution", "measurement", "indicator",
+      "certificate",    "output",  "verification"};
   return names;
 }
 

@@ -23,8 +23,9 @@ namespace {
   std::ostringstream text;
   text.precision(6);
   text << "no distance gives this load: where the road is " << where << " the axle, at "
-       << distance * scene.units.length << ", it is about "
-       << load * scene.units.of(Quantity::force);
+       << distance * scene.units.length << scene.units.after(Quantity::length)
+       << ", the load is about " << load * scene.units.of(Quantity::force)
+       << scene.units.after(Quantity::force);
   throw BadValue("Road", "Load", text.str());
 }
 

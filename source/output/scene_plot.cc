@@ -155,7 +155,7 @@ set ytics font ',10'
 set ylabel 'gap'.unit offset -1
 set xlabel ''
 set format x ''
-set key default inside center top
+set key default inside center top opaque
 plot '$contact' using 1:2 with lines linestyle 3 notitle, \
      NaN with lines dashtype 3 linewidth 1.5 linecolor black title ends
 unset key

@@ -234,13 +234,17 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
       exact.work_conjugate_load, exact.force_accuracy);
   add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width / rad", Quantity::number, result.patch.half_width(), exact.half_width,
+  add("half-width", Quantity::angle, result.patch.half_width(), exact.half_width,
       exact.half_width_accuracy);
   add("peak pressure", Quantity::pressure, result.patch.peak_pressure, exact.peak_pressure, 0);
   if (result.errors && result.errors->exact_distance)
-    add("distance c", Quantity::length, result.road_distance, *result.errors->exact_distance,
-        1e-10);
-  out << "\nVerification against the semi-analytic solution\n";
+    add("distance c for the load", Quantity::length, result.road_distance,
+        *result.errors->exact_distance, 1e-10);
+  out << "\nVerification against the semi-analytic solution";
+  if (scene.load)
+    out << " at the computed distance " << rounded(result.road_distance * units.length, 9)
+        << units.after(Quantity::length);
+  out << '\n';
   print_table(out, table);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "

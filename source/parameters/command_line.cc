@@ -7,7 +7,7 @@
 namespace rollwave {
 
 std::string usage() {
-  return R"(Rollwave computes the steady rolling of an elastic cylinder on a flat road.
+  return R"(Rollwave computes the steady rolling of an elastic cylinder on a road.
 
 Usage:
   rollwave FILE.prm [OPTIONS]

@@ -109,7 +109,7 @@ std::string Keys::nearest(const std::string& section, const std::string& name) c
   std::string text;
   for (auto candidate = known.begin(); candidate != std::next(known.begin(), 3); ++candidate)
     text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
-  return text + "? (section and case matter)";
+  return text + "? (case matters)";
 }
 
 void Keys::read(const std::string& text, const std::string& file) {
@@ -129,14 +129,19 @@ void Keys::read(const std::string& text, const std::string& file) {
     constexpr unsigned int longest = 300;
     std::ostringstream complaint;
     error.print_info(complaint);
-    const std::string message =
+    std::string message =
         std::regex_replace(trimmed(complaint.str().substr(0, longest)), std::regex("\\s+"), " ");
+    // deal.II repeats the name of the file.
+    message =
+        std::regex_replace(message, std::regex("^Line <(\\d+)> of file <[^:]*: "), "line $1: ");
     std::smatch unknown;
     std::string hint;
     if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>")))
       hint = nearest("", unknown[1]);
     else if (std::regex_search(message, unknown, std::regex("subsection to be entered: (.*)")))
-      hint = nearest(unknown[1], "");
+      hint = std::string(unknown[1]).find('.') == std::string::npos
+                 ? nearest(unknown[1], "")
+                 : "; the section before it may lack its \"end\"";
     throw BadInput(file + ": " + printable(message, longest) + hint);
   }
   for (const Setting& setting : settings)

@@ -216,7 +216,7 @@ const Setting* given(const std::vector<Setting>& settings, const char* key) {
 
 [[noreturn]] void refuse_distance_and_load(const std::vector<Setting>& settings) {
   throw BadInput(refusal(settings, BadValue("Road", "Load",
-                                            "the distance follows from the load; leave out "
+                                            "a distance and a load are given; leave out "
                                             "Road/Distance or Road/Load, or set it to none")));
 }
 

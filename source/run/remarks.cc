@@ -107,9 +107,14 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
       result.surface.begin(), result.surface.end(), [](const auto& one, const auto& other) {
         return std::abs(one.displacement) < std::abs(other.displacement);
       });
-  if (largest != result.surface.end() &&
-      std::abs(largest->displacement) > scene.outer_radius - scene.inner_radius)
-    remarks.push_back("the displacement exceeds the ring thickness; the linear model is not valid");
+  constexpr double most = 0.75; // of the thickness; the paper's scenes have up to a half
+  const double share =
+      largest == result.surface.end()
+          ? 0
+          : std::abs(largest->displacement) / (scene.outer_radius - scene.inner_radius);
+  if (share > most)
+    remarks.push_back("the displacement is " + rounded(100 * share, 2) +
+                      " % of the ring's thickness; the linear model is meant for small ones");
   return remarks;
 }
 

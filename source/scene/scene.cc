@@ -43,11 +43,9 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
 
   // The user's number has been rounded, at most by the last digits of a decimal number.
   const double critical = material.wave_speed() / cylinder.outer_radius;
-  const std::string formula = material.wave_speed() == 1 ? "1/b" : "(mu/rho)^(1/2)/b";
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
-    refuse("Angular velocity", text("beyond ", formula, " = ", critical,
-                                    ", which is admitted, the problem is no longer elliptic: the "
-                                    "surface moves faster than the waves"));
+    refuse("Angular velocity", text("it must be at most the critical speed (mu/rho)^(1/2)/b = ",
+                                    critical, ", beyond which the problem is not elliptic"));
 }
 
 void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double c) {

@@ -45,13 +45,16 @@ Fit fit(const std::vector<double>& x, const std::vector<double>& y) {
   return {xy / xx, std::sqrt(rest / (n - 2) / xx)};
 }
 
-/// The runs of a family that are solved, without those on a mesh of the size of the one before.
+/// The runs of a family that are solved, each with a mesh that is at least 1.5 times finer or
+/// coarser than the one before: others would give orders by chance.
 std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   std::vector<unsigned int> meshes;
   for (const unsigned int run : family.runs)
-    if (const auto unknowns = study.value(run, "mesh.dofs");
-        unknowns && (meshes.empty() || unknowns != study.value(meshes.back(), "mesh.dofs")))
-      meshes.push_back(run);
+    if (const auto unknowns = study.value(run, "mesh.dofs")) {
+      const double before = meshes.empty() ? 0 : *study.value(meshes.back(), "mesh.dofs");
+      if (*unknowns >= 1.5 * before || before >= 1.5 * *unknowns)
+        meshes.push_back(run);
+    }
   return meshes;
 }
 
@@ -66,16 +69,17 @@ bool is_known(const Study& study, const std::vector<unsigned int>& meshes,
 void print_errors(std::ostream& out, const Study& study, const std::vector<unsigned int>& meshes) {
   dealii::ConvergenceTable table;
   for (const unsigned int run : meshes)
-    table.add_value("N", static_cast<unsigned int>(*study.value(run, "mesh.dofs")));
+    table.add_value("unknowns", static_cast<unsigned int>(*study.value(run, "mesh.dofs")));
   for (const ResultQuantity& error : errors()) {
-    const std::string &name = error.name, title = error.symbol;
+    const std::string &name = error.name,
+                      title = error.symbol + study.units().in_brackets(error.quantity);
     if (is_known(study, meshes, name)) {
       for (const unsigned int run : meshes)
         table.add_value(title, *study.value(run, name));
       table.set_precision(title, 3);
       table.set_scientific(title, true);
-      table.evaluate_convergence_rates(title, "N", dealii::ConvergenceTable::reduction_rate_log2,
-                                       2);
+      table.evaluate_convergence_rates(title, "unknowns",
+                                       dealii::ConvergenceTable::reduction_rate_log2, 2);
     }
   }
   std::ostringstream text; // where deal.II cannot write, it throws
@@ -137,7 +141,8 @@ void report_orders(std::ostream& out, const Study& study) {
     });
     if (meshes.size() < 2 || !has_errors)
       continue;
-    out << "\nOrders in N^(-1/2)" << (family.name.empty() ? "" : ", ") << family.name << '\n';
+    out << "\nOrders in h ~ unknowns^(-1/2)" << (family.name.empty() ? "" : ", ") << family.name
+        << '\n';
     print_errors(out, study, meshes);
     if (meshes.size() > 2)
       print_fits(out, study, meshes);

@@ -106,7 +106,7 @@ std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
 /// @param order_factor slopes over expected orders; 0 for none
 Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
                          double order_factor) {
-  Panel panel{x_label, "relative error in the energy norm", {}, true, true};
+  Panel panel{x_label, "true relative error in the energy norm", {}, true, true};
   std::set<double> slopes;
   for (const Family& family : find_families(study)) {
     if (x == "mesh.h_max" && family.is_adaptive)
@@ -210,7 +210,10 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
           {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
-  if (!x.empty())
+  std::set<std::optional<double>> steps;
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    steps.insert(study.value(run, "iterations.contact"));
+  if (!x.empty() && steps.size() > 1)
     add("study", {{x_label_of(study), "contact steps",
                    curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
 }

@@ -129,9 +129,9 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title "
-         << in_single_quotes(with_short_numbers(title)) << " margins " << (is_single ? 0.14 : 0.09)
-         << ",0.95," << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height
-         << " spacing 0.1," << 80. / height << '\n';
+         << in_single_quotes(with_short_numbers(title)) << " font ',12' margins "
+         << (is_single ? 0.14 : 0.09) << ",0.95," << (70. + 20 * legend_rows) / height << ','
+         << 1 - 45. / height << " spacing 0.1," << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";

@@ -43,7 +43,7 @@ dealii::TableHandler make_table(const Study& study,
     if (!study.plans[run].scene.empty())
       add("scene", study.plans[run].scene);
     for (const Setting& setting : study.plans[run].varied)
-      add(setting.key, setting.value);
+      add(setting.key + units.in_brackets(key_of(setting).quantity), setting.value);
     if (study.has("published_steps"))
       add("published", study.plans[run].published_steps
                            ? std::to_string(*study.plans[run].published_steps)
@@ -105,11 +105,13 @@ void print_study_notes(std::ostream& out, const Study& study) {
       for (const std::string& remark : made->remarks)
         remarks[run] += (remarks[run].empty() ? "" : "; ") + remark;
     }
-  out << "\nN: unknowns; steps: of the contact iteration; error, certified: true and bounded, "
-         "relative in the\nenergy norm. study.csv has more. Its times exclude work reused from an "
-         "earlier run (column shared).\n";
+  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up and "
+         "without "
+         "work reused\nfrom the run before (column shared of study.csv, which has all numbers).\n";
+  if (study.has("error.certified_relative"))
+    out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))
-    out << "Errors against the semi-analytic solution.\n";
+    out << "error: true relative error in the energy norm, against the semi-analytic solution.\n";
   print_first(out, "Not solved", failures, study.runs.size());
   print_first(out, "Target not reached", shortfalls, study.runs.size());
   print_first(out, "Note", remarks, study.runs.size());

@@ -26,6 +26,11 @@ struct NotSolved : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// There is a result, but a target was not reached; exit code 2.
+struct TargetNotReached : NotSolved {
+  using NotSolved::NotSolved;
+};
+
 /// Thrown where a method needs more memory than there is.
 struct NotEnoughMemory : NotSolved {
   /// @p reason says what needs how much; the advice is added.

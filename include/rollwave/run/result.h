@@ -96,6 +96,7 @@ struct SurfacePoint {
 struct Result {
   MeshFigures mesh;
   double road_distance; ///< c, a length
+  double deflection;    ///< b - c, a length: how far the axle sinks after the first touch
   ContactResultants patch;
   Energy energy;
   Residuals residuals;
