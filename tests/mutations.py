@@ -38,7 +38,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('exact/exact_solution', 'work_of_f_alone - scene', 'work_of_f_alone + scene'),
     ('exact/galerkin_pressure', 'free - road.displacement(x)', 'road.displacement(x) - free'),
     ('exact/galerkin_pressure', 'std::pow(k * w, -2 * nu - 1)', 'std::pow(k * w, -2 * nu)'),
-    ('exact/galerkin_pressure', 'weight.back() -= 2. / 24', 'weight.back() += 2. / 24'),
+    ('exact/galerkin_pressure', 'j == 0 ? 1 : 2', '2'),
     ('exact/bessel_modes', 'return k - x_squared / fraction', 'return k + x_squared / fraction'),
 ]
 TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffness*:Load.*:Road.*:FullContact*:Contact*:'
