@@ -43,7 +43,8 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
 }
 
 TEST(Remarks, TellWhenTheModelIsNotMeantForIt) {
-  EXPECT_TRUE(have(remarks_with({"Road/Distance=0.55"}), "linear model"));
+  for (const char* setting : {"Road/Distance=0.55", "Cylinder/Radial force=10"})
+    EXPECT_TRUE(have(remarks_with({setting}), "linear model")) << setting;
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=100"}), "the end of the automatic zone"));
 }
 

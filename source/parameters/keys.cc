@@ -134,8 +134,7 @@ void Keys::read(const std::string& text, const std::string& file) {
     // deal.II repeats the name of the file.
     message =
         std::regex_replace(message, std::regex("^Line <(\\d+)> of file <[^:]*: "), "line $1: ");
-    if (message.back() == '.')
-      message.pop_back();
+    message = std::regex_replace(message, std::regex("\\.$"), "");
     std::smatch unknown;
     std::string hint;
     if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>")))

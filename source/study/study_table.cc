@@ -105,9 +105,8 @@ void print_study_notes(std::ostream& out, const Study& study) {
       for (const std::string& remark : made->remarks)
         remarks[run] += (remarks[run].empty() ? "" : "; ") + remark;
     }
-  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up and "
-         "without "
-         "work reused\nfrom the run before (column shared of study.csv, which has all numbers).\n";
+  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up\n"
+         "and without work reused from the run before (column shared of study.csv).\n";
   if (study.has("error.certified_relative"))
     out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))

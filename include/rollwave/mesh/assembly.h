@@ -26,7 +26,7 @@ using CellMatrices = std::function<void(const AddCellMatrix& add)>;
  *     K_ij = a(phi_j, phi_i) = int r (alpha d_z phi_j d_z phi_i + d_r phi_j d_r phi_i) dr dz,
  *     alpha = 1/r^2 - omega^2,
  *
- * exact except for round-off.
+ * by Gauss' rules: exact along z, the factor 1/r to 1e-13.
  * @param space and scene must stay valid while the cells are asked for
  */
 CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene);
