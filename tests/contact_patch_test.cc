@@ -23,8 +23,8 @@ ContactResultants patch_of(double left, double right, double s, double omega, do
   std::vector<SurfaceNode> nodes;
   ContactProblem problem;
   ContactSolution solution;
-  problem.shape = {1, 0.8, curvature};
-  problem.road.reinit(n);
+  problem.road = {1, 0.8, curvature};
+  problem.phi.reinit(n);
   problem.weight.reinit(n);
   solution.state.displacement.reinit(n);
   solution.state.force.reinit(n);

@@ -71,7 +71,7 @@ TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
   load(2) = 1;
   DenseSolver solver(stiffness, load);
   ContactProblem problem;
-  problem.road.reinit(3);
+  problem.phi.reinit(3);
   problem.weight.reinit(3);
   problem.weight = 1;
 

@@ -36,9 +36,9 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
   // Where nothing presses on it the surface stays where it was: u = 0, phi = c - b at the lowest
   // point.
   const auto beside = remarks_with({"Road/Contact zone=5.5, 6"});
-  EXPECT_TRUE(have(beside, "up to 0.2 b within the road"));
+  EXPECT_TRUE(have(beside, "penetrates the road by 0.2 b"));
   const auto cut = remarks_with({"Road/Contact zone=4.5, 5"});
-  EXPECT_TRUE(have(cut, "b within the road"));
+  EXPECT_TRUE(have(cut, "penetrates the road by"));
   EXPECT_TRUE(have(cut, "cuts the contact short"));
 }
 
@@ -54,7 +54,7 @@ TEST(Remarks, TellWhenTheMeshDoesNotResolveTheContact) {
                                      "Cylinder/Radial force=2.13", "Road/Distance=1.00361170949",
                                      "Road/Contact zone=3.875282589278516, 6.008407101703167",
                                      "Mesh/Radial cells=1", "Mesh/Angular cells=10"});
-  EXPECT_TRUE(have(between, "the surface passes the road between nodes"));
+  EXPECT_TRUE(have(between, "the surface penetrates the road between nodes"));
   EXPECT_TRUE(have(between, "not resolved"));
   // Less than two cells.
   EXPECT_TRUE(have(remarks_with({"Road/Distance=0.995"}), "held by 3 nodes"));

@@ -69,7 +69,7 @@ TEST_P(PaperFigure, EnergyNormIsTheWorkOfForceAndRoad) {
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
   for (unsigned int i = 0; i < rows.size(); ++i)
-    work_of_road += ring.boundary.contact_nodes()[i].weight * rows[i].pressure * rows[i].road;
+    work_of_road += ring.boundary.contact_nodes()[i].weight * rows[i].pressure * rows[i].phi;
   const double work_of_force = result.energy.norm_squared / 2 - result.energy.value;
   EXPECT_NEAR(result.energy.norm_squared, work_of_force - work_of_road,
               1e-12 * result.energy.norm_squared);

@@ -64,7 +64,7 @@ void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next)
 void pin(const ContactProblem& problem, ContactSolution& solution) {
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      solution.state.displacement(i) = problem.road(i);
+      solution.state.displacement(i) = problem.phi(i);
     else
       solution.state.force(i) = 0;
 }

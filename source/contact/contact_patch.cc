@@ -120,7 +120,7 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
     profile.angle.push_back(nodes[i].angle);
     resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure[i]);
   }
-  const auto [least_begin, largest_end] = reach_of(scene, problem.shape);
+  const auto [least_begin, largest_end] = reach_of(scene, problem.road);
   const double negligible_gap = std::max(solution.gap_accuracy, 1e-10 * displacement.linfty_norm());
   for (const Stretch& stretch : find_stretches(solution.active, profile, negligible_gap)) {
     const auto [first, last, n_before, n_behind] = stretch;
@@ -132,8 +132,8 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
       patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_behind, last - first));
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
-    patch.length = problem.shape.arc_length(from_lowest_point(patch.end)) -
-                   problem.shape.arc_length(from_lowest_point(patch.begin));
+    patch.length = problem.road.arc_length(from_lowest_point(patch.end)) -
+                   problem.road.arc_length(from_lowest_point(patch.begin));
     for (int i = first; i <= last; ++i) {
       patch.force += force(i);
       patch.centroid += force(i) * profile.angle[i];

@@ -9,7 +9,7 @@
 namespace rollwave {
 
 dealii::Vector<double> ContactProblem::gaps(const dealii::Vector<double>& displacement) const {
-  dealii::Vector<double> gap = road;
+  dealii::Vector<double> gap = phi;
   gap -= displacement;
   return gap;
 }
@@ -30,12 +30,12 @@ dealii::Vector<double> ContactProblem::forces(const dealii::Vector<double>& pres
 ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene& scene) {
   const auto& nodes = boundary.contact_nodes();
   ContactProblem problem;
-  problem.road.reinit(nodes.size());
+  problem.phi.reinit(nodes.size());
   problem.weight.reinit(nodes.size());
-  problem.shape = scene.road;
+  problem.road = scene.road;
   problem.unit = 1 / scene.units.of(Quantity::force_density);
   for (unsigned int i = 0; i < nodes.size(); ++i) {
-    problem.road(i) = scene.phi(nodes[i].angle);
+    problem.phi(i) = scene.phi(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;
     problem.x.push_back(from_lowest_point(nodes[i].angle));
   }
@@ -49,7 +49,7 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
       continue;
     loads.total += force(i);
     loads.vertical += force(i) * std::cos(problem.x[i]);
-    loads.work_conjugate += force(i) * problem.shape.distance_derivative(problem.x[i]);
+    loads.work_conjugate += force(i) * problem.road.distance_derivative(problem.x[i]);
   }
   return loads;
 }

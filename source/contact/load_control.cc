@@ -35,9 +35,7 @@ struct Bracket {
   bool is_near_tried = false, is_far_tried = false;
 
   explicit Bracket(const Scene& scene)
-      : near(scene.least_distance), // the inside of a drum ends where its axis is the axle's
-        far(scene.road.curvature < 0 ? -1 / scene.road.curvature
-                                     : std::numeric_limits<double>::infinity()) {}
+      : near(scene.least_distance), far(scene.road.greatest_distance()) {}
 
   /// @param excess of the load at a distance over the wanted one
   void narrow(double distance, double excess) {
@@ -74,7 +72,7 @@ ContactState rate_of_approach(ContactLinearSolver& solver, const ContactProblem&
   Vector<double> displacement(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
-      displacement(i) = -problem.shape.distance_derivative(problem.x[i]);
+      displacement(i) = -problem.road.distance_derivative(problem.x[i]);
   return solver.derivative(solution.active, displacement, final_accuracy);
 }
 
@@ -90,9 +88,8 @@ double approach_of_growth(const ContactProblem& problem, const ContactSolution& 
       const int j = i + out;
       if (!solution.active[i] || j < 0 || j >= n || solution.active[j])
         continue;
-      const double gap = problem.road(j) - solution.state.displacement(j);
-      const double gap_rate =
-          problem.shape.distance_derivative(problem.x[j]) + rate.displacement(j);
+      const double gap = problem.phi(j) - solution.state.displacement(j);
+      const double gap_rate = problem.road.distance_derivative(problem.x[j]) + rate.displacement(j);
       if (!(rate.force(i) > 0 && gap_rate > 0))
         continue;
       const double of_node = solution.state.force(i) / rate.force(i) + gap / gap_rate;
@@ -195,9 +192,9 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load) {
 
 bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
   const unsigned int n = problem.size();
-  const double tangent = problem.shape.tangent_angle();
+  const double tangent = problem.road.tangent_angle();
   const auto first = std::find(active.begin(), active.end(), true);
-  if (first == active.end() || !(problem.shape.curvature > 0)) // other roads have no tangent
+  if (first == active.end() || !problem.road.is_convex()) // others have no tangent
     return false;
   const unsigned int left = first - active.begin(),
                      right = n - 1 -

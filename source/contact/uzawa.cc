@@ -54,13 +54,13 @@ ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p
   const Vector<double>& displacement = solution.state.displacement;
   double violation_squared = 0;
   for (unsigned int i = 0; i < problem.size(); ++i) {
-    const double next = std::min(0., p(i) - rho * (displacement(i) - problem.road(i)));
+    const double next = std::min(0., p(i) - rho * (displacement(i) - problem.phi(i)));
     violation_squared += std::pow((next - p(i)) / rho, 2);
     p(i) = next;
     step.active += next < 0;
     step.changed += solution.active[i] != (next < 0);
     solution.active[i] = next < 0;
-    step.penetration = std::max(step.penetration, displacement(i) - problem.road(i));
+    step.penetration = std::max(step.penetration, displacement(i) - problem.phi(i));
   }
   solution.state.force = problem.forces(p);
   solution.state.force *= -1;
@@ -82,15 +82,15 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
     const Vector<double> force = problem.forces(pressure);
     // The quotient below errs by the square of this.
     const Vector<double> response = solver.apply_compliance(force, 1e-6);
-    double statistics = 0, norm_squared = 0, largest = 0;
+    double work = 0, norm_squared = 0, largest = 0;
     for (unsigned int i = 0; i < problem.size(); ++i) {
-      statistics += force(i) * response(i);
+      work += force(i) * response(i);
       norm_squared += force(i) * pressure(i);
       pressure(i) = nodes[i] ? response(i) : 0.;
       largest = std::max(largest, std::abs(pressure(i)));
     }
     const double previous = compliance;
-    compliance = statistics / norm_squared;
+    compliance = work / norm_squared;
     pressure /= largest;
     if (compliance - previous < 1e-7 * compliance)
       break;

@@ -17,7 +17,7 @@ FieldVector project_contact_nodes(const ContactBoundary& boundary, const Contact
   for (unsigned int i = 0; i < problem.size(); ++i) {
     const auto dof = boundary.contact_nodes()[i].dof;
     if (field.in_local_range(dof))
-      field(dof) = active[i] ? problem.road(i) : std::min(field(dof), problem.road(i));
+      field(dof) = active[i] ? problem.phi(i) : std::min(field(dof), problem.phi(i));
   }
   boundary.space().constraints().distribute(field);
   field.update_ghost_values();

@@ -51,9 +51,9 @@ double find_half_width(const GalerkinPressure& galerkin, double guess, double ma
 
 ExactSolution without_contact(const ExactScene& scene) {
   const double f = scene.force_density;
-  const double statistics =
+  const double work =
       2 * numbers::PI * f * f * contact_free_unit_work(scene.inner_radius, scene.outer_radius);
-  ExactSolution solution{scene, 0, 0, 0, 0, -statistics / 2, statistics, 0, 0, 0, 0, 0.5, true, {}};
+  ExactSolution solution{scene, 0, 0, 0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {}};
   solution.pressure = {3 * numbers::PI / 2, 1, 1, {0.}};
   return solution;
 }

@@ -22,7 +22,7 @@ std::string with_quotes_as(const std::string& replacement, const std::string& te
 }
 
 /// Runs a command of the shell. Returns true if it succeeds. @param messages what it prints
-bool run(const std::string& command, std::string& messages) {
+bool run_shell(const std::string& command, std::string& messages) {
   std::FILE* const pipe = popen(command.c_str(), "r");
   if (!pipe)
     return false;
@@ -59,10 +59,10 @@ void draw(const Picture& picture, const fs::path& directory, const std::string& 
                     picture.script + "set output\n");
   AtomicFile file(directory / svg);
   std::string messages;
-  if (run("cd '" + with_quotes_as("'\\''", fs::absolute(directory).string()) +
-              "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() + "'\" " +
-              script + " 2>&1",
-          messages) &&
+  if (run_shell("cd '" + with_quotes_as("'\\''", fs::absolute(directory).string()) +
+                    "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() +
+                    "'\" " + script + " 2>&1",
+                messages) &&
       is_complete(file.part())) {
     written.n_bytes += file.commit();
     written.files.push_back(directory / svg);

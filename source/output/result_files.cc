@@ -31,7 +31,7 @@ std::string contact_csv(const Result& result, const Units& units) {
       << ",gap" << length_unit << ",pressure" << units.in_brackets(Quantity::pressure) << ",weight"
       << units.in_brackets(Quantity::area) << '\n';
   for (const ContactRow& row : result.contact_rows)
-    out << row.angle << ',' << row.displacement * length << ',' << row.road * length << ','
+    out << row.angle << ',' << row.displacement * length << ',' << row.phi * length << ','
         << row.gap * length << ',' << row.pressure * pressure << ',' << row.weight * area << '\n';
   return out.str();
 }

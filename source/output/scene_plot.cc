@@ -92,7 +92,7 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
   add_surface(result.surface.front());
   script << "EOD\n$road << EOD\n";
   for (const auto& [x, y] :
-       points_of_road(scene, 4 * std::max(scene.outer_radius, scene.road.distance)))
+       scene.road.points(4 * std::max(scene.outer_radius, scene.road.distance)))
     script << x * length << ' ' << y * length << '\n';
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
@@ -191,7 +191,7 @@ Picture plot_scene(const Scene& scene, const Result& result) {
          << std::max(1.15, largest) << "\nangle = " << std::min(angle, 1.5) << "\nzoom = b * "
          << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
          << "\nends = '" << (result.patch.ends ? "ends of contact" : "")
-         << "'\nroad_side = " << (scene.road.curvature > 0 ? "'closed'" : "sprintf('y1=%g', -10*b)")
+         << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
          << "\nset multiplot title '" << title_of(scene, result) << "'\n"
          << pictures;
   for (const ContactPatch& patch : result.patch.patches)

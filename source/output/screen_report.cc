@@ -207,7 +207,7 @@ void report_errors(std::ostream& out, const Result& result, const Units& units) 
   if (result.errors->is_resolved)
     print("error.exact_relative", ", relative ");
   print("error.exact_l2_norm", "; in L2 ");
-  print("error.exact_pressure", ", of the pressure in L2 ");
+  print("error.exact_pressure", ", of the pressure in the discrete L2 norm ");
   out << '\n';
 }
 
@@ -258,10 +258,10 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
     out << "\nFiles\n";
   for (const auto& file : written.files) {
     constexpr double megabyte = 1e6, large = 100;
-    std::error_code none; // which makes the size that of no file at all
-    const double size = std::filesystem::file_size(file, none) / megabyte;
+    std::error_code error; // set if there is no file
+    const double size = std::filesystem::file_size(file, error) / megabyte;
     out << "  " << file.string();
-    if (size > large && !none)
+    if (size > large && !error)
       out << "  (" << std::lround(size) << " MB)";
     out << '\n';
   }

@@ -49,22 +49,6 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
 
 } // namespace
 
-std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double longest) {
-  const double kappa = scene.road.curvature, c = scene.road.distance;
-  const double most = numbers::PI * (kappa > 0 ? 1 : 0.5);
-  const double half = std::abs(kappa) * longest > most ? most / std::abs(kappa) : longest;
-  constexpr int n = 400;
-  std::vector<std::pair<double, double>> points;
-  for (int i = -n; i <= n; ++i) {
-    const double s = half * i / n, sine = std::sin(kappa * s / 2);
-    if (kappa == 0)
-      points.emplace_back(s, -c);
-    else
-      points.emplace_back(std::sin(kappa * s) / kappa, -c - 2 * sine * sine / kappa);
-  }
-  return points;
-}
-
 std::string surface_vtu(const Scene& scene, const Result& result) {
   const double length = scene.units.of(Quantity::length), b = scene.outer_radius,
                pressure_unit = scene.units.of(Quantity::pressure);
@@ -94,7 +78,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
 std::string road_vtu(const Scene& scene) {
   std::vector<double> radius, angles;
   for (const auto& [x, y] :
-       points_of_road(scene, 2 * std::max(scene.outer_radius, scene.road.distance))) {
+       scene.road.points(2 * std::max(scene.outer_radius, scene.road.distance))) {
     radius.push_back(std::hypot(x, y) * scene.units.length);
     angles.push_back(1.5 * numbers::PI + std::atan2(x, -y));
   }

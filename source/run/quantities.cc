@@ -118,7 +118,7 @@ Quantities energy_quantities() {
        of(&Result::certified, &CertifiedError::upper_bound)},
       {"error.certified_energy_norm", "guaranteed bound of the error in the energy norm", "",
        Quantity::energy_norm, 0, 3, of(&Result::certified, &CertifiedError::energy_norm)},
-      {"error.certified_relative", "the same over the energy norm of u", "certified",
+      {"error.certified_relative", "guaranteed bound of the relative error", "certified",
        Quantity::number, Shown::table | Shown::orders, 3,
        of(&Result::certified, &CertifiedError::relative)},
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
@@ -143,7 +143,7 @@ Quantities error_quantities() {
   return {
       {"error.exact_energy_norm", "true error in the energy norm", "", Quantity::energy_norm, 0, 3,
        if_resolved(of(&Result::errors, &TrueErrors::energy_norm))},
-      {"error.exact_relative", "the same over the energy norm of u", "error", Quantity::number,
+      {"error.exact_relative", "true relative error in the energy norm", "error", Quantity::number,
        Shown::table | Shown::orders, 3,
        if_resolved(of(&Result::errors, &TrueErrors::relative_energy_norm))},
       {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,

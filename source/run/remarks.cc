@@ -62,59 +62,85 @@ std::string cost_text(const RunOptions& options, const Result& result) {
          std::to_string(result.mesh.degree) + (has_higher ? ", fewer at a higher one; " : "; ");
 }
 
+/// On contact that ends where the zone does, other than at the tangent of a drum.
+std::string remark_on_zone_ends(const RunOptions& options, const Scene& scene,
+                                const Result& result) {
+  const auto& ends = result.patch.ends;
+  const double tangent = scene.road.tangent_angle();
+  const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
+  if (!ends || scene.is_whole_circle() || zone_ends_at_tangent ||
+      (ends->first != scene.zone_begin && ends->second != scene.zone_end))
+    return {};
+  return options.road.contact_zone
+             ? "the zone cuts the contact short: the pressure is unbounded at its end, where "
+               "peak_pressure grows with each refinement"
+             : "contact reaches the end of the automatic zone, where phi = b; give a wider "
+               "Road/Contact zone if it may go on";
+}
+
+/// On a surface that lies in the road outside of a zone that the user has given.
+std::string remark_on_depth_outside(const RunOptions& options, const Scene& scene,
+                                    const Result& result) {
+  const double depth = depth_outside(scene, result) / scene.outer_radius;
+  if (!options.road.contact_zone || !(depth > 1e-9))
+    return {};
+  return "outside of the zone, where contact is not considered, the surface penetrates the road "
+         "by " +
+         rounded(depth, 2) + " b; give a wider Road/Contact zone";
+}
+
+/// On a certificate that says nothing.
+std::string remark_on_certificate(const RunOptions& options, const Result& result) {
+  if (!result.certified || result.certified->relative < 1)
+    return {};
+  if (std::isinf(result.certified->force_data))
+    return "there is no bound: the force is singular (not square-integrable)";
+  return "the certified relative error is 1 or more, so that no digit is certified" +
+         std::string(options.mesh.wanted_relative_error > 0
+                         ? ""
+                         : "; refine, or set Mesh/Wanted relative error");
+}
+
+/// On contact that the mesh is too coarse for.
+std::string remark_on_resolution(const MeshSolution& solution, const Result& result) {
+  const unsigned int n_nodes = result.patch.active_nodes;
+  std::string what;
+  if (n_nodes == 0) {
+    if (passes_road(solution.scene, {solution.boundary.space(), solution.displacement}))
+      what = "the surface penetrates the road between nodes";
+  } else if (n_nodes <= 2 * result.mesh.degree) // two cells with all of their nodes have one more
+    what = "contact is held by " + std::to_string(n_nodes) + (n_nodes == 1 ? " node" : " nodes");
+  if (what.empty())
+    return {};
+  return what + ", so that force, ends and pressure are not resolved; raise Mesh/Angular cells, "
+                "or set Mesh/Wanted relative error";
+}
+
+/// On displacements that are large for a linear model.
+std::string remark_on_displacement(const Scene& scene, const Result& result) {
+  double largest = 0;
+  for (const SurfacePoint& point : result.surface)
+    largest = std::max(largest, std::abs(point.displacement));
+  constexpr double most = 0.75; // of the thickness; the paper's scenes have up to a half
+  const double share = largest / (scene.outer_radius - scene.inner_radius);
+  if (!(share > most))
+    return {};
+  return "the displacement is " + rounded(100 * share, 2) +
+         " % of the ring's thickness; the linear model is meant for small ones";
+}
+
 } // namespace
 
 std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
                                     const Result& result) {
   const Scene& scene = solution.scene;
   std::vector<std::string> remarks;
-  const auto& ends = result.patch.ends;
-  const unsigned int active_nodes = result.patch.active_nodes;
-  const double tangent = scene.road.tangent_angle();
-  const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
-  if (ends && !scene.is_whole_circle() && !zone_ends_at_tangent &&
-      (ends->first == scene.zone_begin || ends->second == scene.zone_end))
-    remarks.push_back(
-        options.road.contact_zone
-            ? "the zone cuts the contact short: the pressure is unbounded at its end, "
-              "where peak_pressure grows with each refinement"
-            : "contact reaches the end of the automatic zone, where phi = b; give a "
-              "wider Road/Contact zone if it may go on");
-  const double depth = depth_outside(scene, result) / scene.outer_radius;
-  if (options.road.contact_zone && depth > 1e-9)
-    remarks.push_back("outside of the zone, where there is no contact, the surface lies up to " +
-                      rounded(depth, 2) +
-                      " b within the road; give a wider Road/Contact zone to prevent that");
-  if (result.certified && !(result.certified->relative < 1)) {
-    std::string remark = "the certified relative error is 1 or more, so that no digit is certified";
-    if (options.mesh.wanted_relative_error == 0)
-      remark += "; refine, or set Mesh/Wanted relative error";
-    if (std::isinf(result.certified->force_data))
-      remark = "there is no bound: the force is singular (not square-integrable)";
-    remarks.push_back(remark);
-  }
-  // Two cells with all of their nodes have one more.
-  const bool is_held_by_few = 0 < active_nodes && active_nodes <= 2 * result.mesh.degree;
-  if (is_held_by_few ||
-      (active_nodes == 0 &&
-       passes_road(scene, SurfaceTrace(solution.boundary.space(), solution.displacement))))
-    remarks.push_back((is_held_by_few ? "contact is held by " + std::to_string(active_nodes) +
-                                            (active_nodes == 1 ? " node" : " nodes")
-                                      : "the surface passes the road between nodes") +
-                      ", so that force, ends and pressure are not resolved; raise Mesh/Angular "
-                      "cells, or set Mesh/Wanted relative error");
-  const auto largest = std::max_element(
-      result.surface.begin(), result.surface.end(), [](const auto& one, const auto& other) {
-        return std::abs(one.displacement) < std::abs(other.displacement);
-      });
-  constexpr double most = 0.75; // of the thickness; the paper's scenes have up to a half
-  const double share =
-      largest == result.surface.end()
-          ? 0
-          : std::abs(largest->displacement) / (scene.outer_radius - scene.inner_radius);
-  if (share > most)
-    remarks.push_back("the displacement is " + rounded(100 * share, 2) +
-                      " % of the ring's thickness; the linear model is meant for small ones");
+  for (const std::string& remark :
+       {remark_on_zone_ends(options, scene, result),
+        remark_on_depth_outside(options, scene, result), remark_on_certificate(options, result),
+        remark_on_resolution(solution, result), remark_on_displacement(scene, result)})
+    if (!remark.empty())
+      remarks.push_back(remark);
   return remarks;
 }
 
@@ -128,8 +154,8 @@ std::string missing_error_text(const RunOptions& options, const Result& result,
   return reached + cost_text(options, result) +
          (is_at_finest_level
               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
-                "Mesh/Angular cells, or want less"
-              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or want less");
+                "Mesh/Angular cells, or Mesh/Wanted relative error"
+              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error");
 }
 
 std::string residual_text(const Residuals& residuals) {

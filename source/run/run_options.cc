@@ -17,7 +17,7 @@ void check_certificate(const RunOptions& options) {
                    "they need the error bound; set Certificate/Error bound = true");
   if (options.mesh.wanted_relative_error > 0)
     throw BadValue("Mesh", "Wanted relative error",
-                   "it is judged by the certificate; set Certificate/Error bound = true");
+                   "the target needs the error bound; set Certificate/Error bound = true");
 }
 
 } // namespace

@@ -108,7 +108,7 @@ std::string interrupted_text(unsigned int n_meshes) {
 void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
                   const CertifiedError& error, RunStatistics& statistics, Result& result) {
   const auto& load = solution.scene.load;
-  if (solution.scene.road.curvature > 0)
+  if (solution.scene.road.is_convex())
     result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
                              "least energy need not be convex in the distance");
   else if (!load)

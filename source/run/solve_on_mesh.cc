@@ -39,7 +39,7 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
     penetration = std::max(penetration, -gap(i));
     negative_pressure = std::max(negative_pressure, -pressure(i));
     force_times_gap += std::abs(force(i) * gap(i));
-    force_times_road += std::abs(force(i) * problem.road(i));
+    force_times_road += std::abs(force(i) * problem.phi(i));
   }
   const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
   return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
@@ -73,7 +73,7 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache,
     require_finite(cache.load->norm_sqr(), "the load");
 }
 
-/// The pressure profile's nodes in contact, and the distance of a load that is given.
+/// Finds the distance if a load is given. Then solves the contact problem.
 void solve_contact_on(const RunOptions& options, const PressureProfile& start,
                       ContactLinearSolver& solver, MeshSolution& solution) {
   const ContactBoundary& boundary = solution.boundary;
@@ -92,8 +92,9 @@ void solve_contact_on(const RunOptions& options, const PressureProfile& start,
     solution.remarks.push_back(solution.contact.remark);
 }
 
-/// Leaves out what nodes next to the tangent of a drum do not resolve.
-void leave_out_unresolved(MeshSolution& solution) {
+/// Sets the work-conjugate load and the stiffness to NaN, since nodes next to the tangent of a drum
+/// do not resolve them.
+void leave_out_unresolved_loads(MeshSolution& solution) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   solution.resultants.work_conjugate_load = unknown;
   solution.resultants.stiffness = {unknown, unknown, unknown};
@@ -174,7 +175,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
       measure_contact(solution.scene, boundary.contact_nodes(), solution.problem, solution.contact);
   solution.resultants.stiffness = stiffness;
   if (reaches_tangent(solution.problem, solution.contact.active))
-    leave_out_unresolved(solution);
+    leave_out_unresolved_loads(solution);
   FieldVector stiffness_times_u = solver.apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;
   const double work_of_force = cache.load ? solution.displacement * *cache.load : 0.;

@@ -56,7 +56,7 @@ std::string misunderstanding(const std::string& expression) {
     if (c == ',' && depth == 0)
       return "A comma separates the arguments of a function; decimals have a point.";
     if (c == ';')
-      return "A semicolon separates expressions, of which there is one.";
+      return "It must be one expression; leave out the semicolon.";
     const bool is_comparison =
         expression.compare(i, 2, "==") == 0 ||
         (i > 0 && std::string("=<>!").find(expression[i - 1]) != std::string::npos);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rollwave {
 
@@ -70,6 +71,26 @@ double Road::arc_length(double x) const {
   const double sine = c * (2 + curvature * c) * std::sin(x) / (m * std::cos(x) + s),
                cosine = s * std::cos(x) + m * std::sin(x) * std::sin(x);
   return curvature == 0 ? sine : std::atan2(curvature * sine, cosine) / curvature;
+}
+
+double Road::greatest_distance() const {
+  return curvature < 0 ? -1 / curvature : std::numeric_limits<double>::infinity();
+}
+
+std::vector<std::pair<double, double>> Road::points(double longest) const {
+  const double most = numbers::PI * (is_convex() ? 1 : 0.5), size = std::abs(curvature);
+  const double half = size * longest > most ? most / size : longest;
+  constexpr int n = 400;
+  std::vector<std::pair<double, double>> points;
+  for (int i = -n; i <= n; ++i) {
+    const double s = half * i / n, sine = std::sin(curvature * s / 2);
+    if (curvature == 0)
+      points.emplace_back(s, -distance);
+    else
+      points.emplace_back(std::sin(curvature * s) / curvature,
+                          -distance - 2 * sine * sine / curvature);
+  }
+  return points;
 }
 
 bool Road::is_visible(double x) const {

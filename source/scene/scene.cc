@@ -91,7 +91,7 @@ double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   }
   // With a given load, the nearest road is touched the most, except inside of a drum that the
   // surface can fill: there the top touches as soon as both have the same axis.
-  if (scene.load && scene.road.curvature < 0 && b + limit >= -1 / scene.road.curvature)
+  if (scene.load && b + limit >= scene.road.greatest_distance())
     return numbers::PI;
   const Road road = scene.load ? scene.road.at(scene.least_distance) : scene.road;
   return std::min({numbers::PI, road.crossing_angle(b), road.crossing_angle(limit) + margin});

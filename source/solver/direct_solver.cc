@@ -91,7 +91,7 @@ void DirectSolver::divide_by_schur(Vector<double>& force) const {
 
 /// Sets u_i of the candidates that are not pinned and N_i of those that are.
 /// @param contact_load g
-/// @return whether this needed a factorisation, as with both kinds of them
+/// @return true if some nodes are pinned and some are free, which needs a factorisation
 bool DirectSolver::solve_dense(const std::vector<bool>& pinned, const Vector<double>& contact_load,
                                Vector<double>& displacement, Vector<double>& force) const {
   std::vector<unsigned int> free;

@@ -56,7 +56,7 @@ LowerTriplets SparseCholesky::assemble(const AffineConstraints<double>& constrai
 void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& statistics) {
   const bool is_first = cholesky->n_factor_entries() == 0;
   cholesky->set_matrix(triplets);
-  if (!is_first) // later factors take the place of the one before
+  if (!is_first) // later factors reuse the memory of the first
     return;
   ++statistics.orderings;
   constexpr double dense_matrices = 3; // of the last nodes: L_cc, S, and a block of S factorised

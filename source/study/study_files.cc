@@ -66,14 +66,14 @@ std::string title_of(const Study& study) {
   return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
 }
 
-/// A curve of a quantity over the first of the keys that vary fastest, for each choice of the other
-/// keys; another quantity gives the marks.
+/// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
+/// the other keys; another quantity gives the marks.
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
-    const Setting* const last = &plan.varied[study.first_keys.back()];
+    const Setting* const last = &plan.varied[study.first_key_of_part.back()];
     const std::string title =
         label(plan, [last](const Setting& setting) { return &setting < last; });
     // The keys before them change together with the text.
@@ -87,10 +87,10 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
 }
 
 std::string x_label_of(const Study& study) {
-  return axis_label(study.plans.front().varied[study.first_keys.back()], study.units());
+  return axis_label(study.plans.front().varied[study.first_key_of_part.back()], study.units());
 }
 
-/// The quantities for curves over the key that varies fastest.
+/// A panel for each quantity that is drawn over the last part of Study/Vary.
 std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
   std::vector<Panel> panels;
   for (const ResultQuantity& quantity : result_quantities())
@@ -130,7 +130,7 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
 /// @p x are known and no other key varies.
 std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double>& x) {
   const auto numbers = equidistant_numbers(study.runs.size(), most_curves);
-  if (x.empty() || study.first_keys.size() > 1 || x.size() <= most_curves)
+  if (x.empty() || study.first_key_of_part.size() > 1 || x.size() <= most_curves)
     return {numbers.begin(), numbers.end()};
   const auto [least, largest] = std::minmax_element(x.begin(), x.end());
   std::set<unsigned int> runs;
@@ -160,9 +160,9 @@ Panel profiles(const Study& study, const std::vector<double>& x) {
 /// The vertical load over two keys; nullopt unless these alone vary, are of cylinder and road, and
 /// numbers.
 std::optional<Picture> map_of_load(const Study& study) {
-  if (study.first_keys.size() != 2 || !study.plans.front().scene.empty())
+  if (study.first_key_of_part.size() != 2 || !study.plans.front().scene.empty())
     return {};
-  const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_keys[1]);
+  const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
   const auto& varied = study.plans.front().varied;
   if (!std::all_of(varied.begin(), varied.end(), is_of_scene) || x.empty() || y.empty() ||
       x.front() == x.back() || y.front() == y.back())
@@ -176,7 +176,7 @@ std::optional<Picture> map_of_load(const Study& study) {
   }
   const Units units = study.units();
   return plot_map(title_of(study), axis_label(varied[0], units),
-                  axis_label(varied[study.first_keys[1]], units),
+                  axis_label(varied[study.first_key_of_part[1]], units),
                   "vertical load" + units.in_brackets(Quantity::force), lines);
 }
 
@@ -188,11 +188,12 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
     if (!panels.front().curves.empty())
       draw(plot_panels(title + remark, panels), directory, name, written);
   };
-  const auto x =
-      study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
+  const auto x = study.first_key_of_part.empty()
+                     ? std::vector<double>()
+                     : numbers_of(study, study.first_key_of_part.back());
   if (const auto map = map_of_load(study))
     draw(*map, directory, "study-map", written);
-  if (x.empty() || is_of_scene(study.plans.front().varied[study.first_keys.back()])) {
+  if (x.empty() || is_of_scene(study.plans.front().varied[study.first_key_of_part.back()])) {
     if (!x.empty())
       add("study-curves", curves(study, x));
     const Panel panel = profiles(study, x);
@@ -221,8 +222,9 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
 /// time.
 std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
-  const auto times =
-      study.first_keys.empty() ? std::vector<double>() : numbers_of(study, study.first_keys.back());
+  const auto times = study.first_key_of_part.empty()
+                         ? std::vector<double>()
+                         : numbers_of(study, study.first_key_of_part.back());
   std::vector<std::pair<double, std::string>> files;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     for (const char* const name : {"solution.vtu", "solution.pvtu"})

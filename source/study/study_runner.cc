@@ -85,7 +85,7 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
   study.runs.resize(study.plans.size());
   unsigned int n_keys = 0;
   for (const Variation& variation : parameters.study.vary) {
-    study.first_keys.push_back(n_keys);
+    study.first_key_of_part.push_back(n_keys);
     n_keys += variation.front().size();
   }
   return study;

@@ -176,12 +176,11 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
                                const ExactSolution& exact) {
   const bool is_cut = exact.end_exponent < 0;
   const double floor = (is_cut ? 1e-5 : 5e-6) * std::sqrt(exact.norm_squared);
-  const double statistics = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
+  const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
 
   const SurfaceTrace trace(space, field);
   TrueErrors errors;
-  errors.energy_norm =
-      energy_distance(exact, pieces_of(trace), result.energy.norm_squared, statistics);
+  errors.energy_norm = energy_distance(exact, pieces_of(trace), result.energy.norm_squared, work);
   errors.relative_energy_norm =
       exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
   errors.l2_norm = l2_error(space, field, exact);

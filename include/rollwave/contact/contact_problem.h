@@ -40,13 +40,13 @@ struct ContactOptions {
  *     u_i <= phi_i,   N_i >= 0,   N_i (phi_i - u_i) = 0,   pressure lambda_i = N_i / weight_i.
  */
 struct ContactProblem {
-  dealii::Vector<double> road;   ///< phi_i, a length
+  dealii::Vector<double> phi;    ///< phi_i, a length
   dealii::Vector<double> weight; ///< the nodes' areas, see SurfaceNode
   std::vector<double> x;         ///< the nodes' angles from the lowest point
-  Road shape;                    ///< of the road that phi_i belongs to
-  double unit = 1;               ///< of displacement over pressure, in the user's
+  Road road;
+  double unit = 1; ///< of displacement over pressure, in the user's
 
-  unsigned int size() const { return road.size(); }
+  unsigned int size() const { return phi.size(); }
 
   /// phi_i - u_i
   dealii::Vector<double> gaps(const dealii::Vector<double>& displacement) const;

@@ -46,7 +46,9 @@ struct CertifiedError {
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
  * a StressFunction psi, in terms of which the first integral is
  *
- *     int [ r alpha (psi_s + v_z)^2 + r ((G_h - psi_z)/r - v_r)^2 ] dr dz.
+ *     int [ r alpha (psi_s + v_z)^2 + r ((G_h - psi_z)/r - v_r)^2 ] dr dz,
+ *
+ * where s(r) = int_r^b rho alpha drho, so that psi_s = -psi_r / (r alpha).
  *
  * G_h is that of ForceIntegral, which misses the force by no more than delta in the dual norm, so
  * that a(v - u, v - u)^(1/2) <= eta + delta by the triangle inequality, and the bounds of J open
@@ -58,7 +60,7 @@ struct CertifiedError {
  */
 struct Certificate {
   CertifiedError error;            ///< the bounds
-  std::vector<double> cell_bounds; ///< eta of each active cell; their squares add up to eta^2
+  std::vector<double> cell_bounds; ///< of each active cell; the squares add up to eta^2 + delta^2
   AdmissibleTrace trace;           ///< v on the surface
   double work_of_force;            ///< (f, v), by G_h
 };

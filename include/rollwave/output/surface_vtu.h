@@ -5,8 +5,6 @@
 #include "rollwave/scene/scene.h"
 
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace rollwave {
 
@@ -17,12 +15,6 @@ std::string surface_vtu(const Scene& scene, const Result& result);
 
 /// The road as VTU, a line with the point field `angle`.
 std::string road_vtu(const Scene& scene);
-
-/// Points (x, y) of the road, a line or a circle of the curvature kappa, equally spaced by their
-/// way s from the lowest point: x = sin(kappa s) / kappa, y = -c - (1 - cos(kappa s)) / kappa with
-/// |s|
-/// <= @p longest; of a drum at most once around, of the inside of one the lower half.
-std::vector<std::pair<double, double>> points_of_road(const Scene& scene, double longest);
 
 } // namespace rollwave
 

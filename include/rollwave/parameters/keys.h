@@ -16,7 +16,7 @@
 
 namespace rollwave {
 
-/// @p text as a value. @throws BadInput without a reason where it does not match @p pattern.
+/// @p text as a value. @throws BadInput without a reason if it does not match @p pattern.
 template <typename T>
 T converted(const std::string& text, const dealii::Patterns::PatternBase& pattern) {
   if (!pattern.match(text))
@@ -31,7 +31,8 @@ T converted(const std::string& text, const dealii::Patterns::PatternBase& patter
  */
 class Keys {
 public:
-  /// Sets the variable of a key. Throws BadInput, with or without a reason, for other texts.
+  /// Sets the variable of a key. Throws BadInput for other texts; without a reason the message
+  /// shows the text of the key.
   using Parse = std::function<void(const Setting& setting)>;
 
   /// @param settings to which every value given to a key is appended

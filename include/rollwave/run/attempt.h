@@ -14,7 +14,8 @@ namespace rollwave {
 /// @param missing such as "the error could not be certified"
 /// @param advice the change that helps
 /// @return true if the part has been computed
-/// @throws any exception but NotSolved on several processes: it may be that of this process only
+/// @throws any exception except NotSolved on several processes, since it may have occurred on one
+/// of them only
 bool attempt(const std::function<void()>& compute, const std::string& missing,
              const std::string& advice, MPI_Comm communicator,
              std::vector<std::string>& shortfalls);

@@ -33,8 +33,8 @@ struct MeshCache {
 /// A mesh with its space and its matrices; the members are listed in the order of their dependence.
 struct Discretisation {
   /// The first mesh of @p options.
-  /// @param shared_zone where several scenes are solved on it, so that its matrices are kept: one
-  /// that holds the zones of all of them
+  /// @param shared_zone given if several scenes use the mesh, whose matrices are then kept; it
+  /// contains the zones of all of them
   /// @throws BadInput for a mesh without a node in the zone of possible contact
   Discretisation(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                  RunStatistics& statistics,

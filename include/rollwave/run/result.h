@@ -79,7 +79,7 @@ struct TrueErrors {
 struct ContactRow {
   double angle;
   double displacement;
-  double road;
+  double phi;
   double gap;
   double pressure;
   double weight; ///< an area: pressures times it add up to the force

@@ -26,7 +26,7 @@ struct RunOptions {
 /// @throws BadValue as make_scene() and where something is asked for that needs the error bound
 Scene make_scene(const RunOptions& options);
 
-/// The same on a mesh with about a sixteenth of the cells, once and without a certificate.
+/// Options for one solve on about a sixteenth of the cells, without refinement and certificate.
 RunOptions coarser(RunOptions options);
 
 } // namespace rollwave

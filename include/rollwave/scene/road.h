@@ -2,6 +2,8 @@
 #define ROLLWAVE_SCENE_ROAD_H
 
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace rollwave {
 
@@ -39,6 +41,12 @@ struct Road {
   /// The angle up to which the axle sees the road: asin(1 / m) of a drum, pi of other roads.
   double tangent_angle() const;
 
+  /// True for the outside of a drum, the only road with a tangent.
+  bool is_convex() const { return curvature > 0; }
+
+  /// The largest distance: -1/kappa inside of a drum, where its axis is the axle's, else infinity.
+  double greatest_distance() const;
+
   /// True if the axle sees the road in the direction of @p x, as it does all around inside of a
   /// drum, and below itself otherwise.
   bool is_visible(double x) const;
@@ -49,6 +57,11 @@ struct Road {
   /// The length of the road between its lowest point and the angle x, up to the tangent:
   /// (asin(m sin x) - x) / kappa, the arc of the circle, which is c tan x for kappa = 0.
   double arc_length(double x) const;
+
+  /// Points (x, y) of the road, equally spaced by their distance s along it from the lowest point:
+  /// x = sin(kappa s) / kappa, y = -c - (1 - cos(kappa s)) / kappa, |s| <= @p longest; once around
+  /// a drum at most, the lower half inside of one.
+  std::vector<std::pair<double, double>> points(double longest) const;
 
 private:
   double root(double x) const; ///< S, 0 beyond the tangent

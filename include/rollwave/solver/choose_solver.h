@@ -35,7 +35,7 @@ struct SolverChoice {
 
 /// The kind of solver that @p kind asks for, set up for @p scene. "auto" is the direct kind or, on
 /// several processes and where its dense matrices of the contact nodes take too long or its factor
-/// too much memory, the iterative one. @p boundary, @p load and @p work are as for
+/// too much memory, the iterative one. @p boundary, @p load and @p statistics are as for
 /// ContactLinearSolver::set_problem().
 /// @param candidates the nodes of the zones of all scenes that the solver is set up for
 /// @throws NotSolved as the kinds do.

@@ -37,7 +37,7 @@ public:
   /// Sets up a scene, which may differ from the one before in its speed, force, road and zone.
   /// Quantities that do not depend on these changes are kept. @p boundary has the nodes in the
   /// scene's zone, which are candidates of the solver. @p load is the vector of the force, nullopt
-  /// when it is zero; it and @p work must live until the next call or the last use.
+  /// when it is zero; it and @p statistics must live until the next call or the last use.
   /// @throws NotSolved when memory is short or K is not positive definite in rounded arithmetic.
   virtual void set_problem(const Scene& scene, const ContactBoundary& boundary,
                            const std::optional<FieldVector>& load, RunStatistics& statistics) = 0;

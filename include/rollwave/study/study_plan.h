@@ -16,7 +16,7 @@ struct RunPlan {
   std::string scene;           ///< its name in Study/Scenes, empty without
   std::vector<Setting> varied; ///< one setting for each key of Study/Vary
   std::optional<unsigned int> published_steps;
-  Parameters parameters; ///< without a study
+  Parameters parameters; ///< of this run alone
 };
 
 /// Every combination of the values in `Study/Vary`, the last key varying fastest, for each of

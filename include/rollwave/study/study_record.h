@@ -18,10 +18,10 @@ struct StudyRun {
   /// The known result_quantities() by their names, in the user's units; none where it was not
   /// solved.
   std::map<std::string, double> values;
-  std::string reference; ///< what its errors are measured against; empty without errors
-  std::string failure;   ///< why it was not solved, or not to what was wanted; empty where it was
+  std::string reference; ///< what its errors are measured against; empty if there are none
+  std::string failure;   ///< why it was not solved or did not reach its target; else empty
   std::vector<std::string> remarks;
-  std::string shared; ///< what it has from the run before, which its seconds do not count
+  std::string shared; ///< what it reuses from the run before; its seconds leave that out
   std::string files;  ///< the directory of its own files; empty without
   std::vector<std::pair<double, double>> pressure; ///< angles and pressures along the contact
 
@@ -33,9 +33,9 @@ struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
 
-  /// The places in RunPlan::varied at which the keys of each part of Study/Vary begin; those of a
-  /// part move together.
-  std::vector<unsigned int> first_keys = {};
+  /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
+  /// vary together.
+  std::vector<unsigned int> first_key_of_part = {};
   std::string shortfall = ""; ///< where the user has interrupted it; mostly empty
 
   /// The value of one of result_quantities() or of `published_steps`, where it is known.

@@ -22,8 +22,8 @@ Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_
  *
  * On several processes all of them make each run together; rank 0 writes.
  *
- * When the user interrupts it, the current run ends without a row, unless nothing is missing of it,
- * and no further run is begun.
+ * When the user interrupts it, no further run begins. The current run ends after its current mesh,
+ * and gets a row only if that was its last.
  *
  * @throws NotWritten; Interrupted before there is a row.
  */
