@@ -50,7 +50,7 @@ TEST(Attempt, FailingCertificateLeavesTheSolution) {
         without_certificate({setting, "Mesh/Indicator=kelly", "Mesh/Most unknowns=30000"});
     EXPECT_EQ(result.shortfalls.size(), 1u) << setting;
     EXPECT_FALSE(result.certified);
-    EXPECT_NEAR(result.patch.force, 0.33249897643, 1e-4);
+    EXPECT_NEAR(result.contact.force, 0.33249897643, 1e-4);
     EXPECT_NEAR(result.energy.value, 0.02906970811, 1e-5);
   }
 }

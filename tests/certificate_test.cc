@@ -173,7 +173,7 @@ TEST(Certificate, IsAnEqualityWithoutContact) {
            "Road/Distance=1.1", "Cylinder/Radial force=-3"});
       const Result result = simulate(make_scene(parameters), parameters).result;
       const double exact = -9 * PI * contact_free_unit_work(std::stod(radius), 1);
-      EXPECT_EQ(result.patch.active_nodes, 0u);
+      EXPECT_EQ(result.contact.active_nodes, 0u);
       EXPECT_NEAR(result.certified->lower_bound, exact, 1e-12 * std::abs(exact)) << radius;
       EXPECT_GE(result.certified->upper_bound, exact * (1 + 1e-12)) << radius;
     }
@@ -210,7 +210,7 @@ TEST(Certificate, IsSharpInThinRings) {
         const TrueErrors errors = measure_true_errors(
             solution.space(), solution.displacement, solution.result, solution.certificate, *exact);
         const double n_cells = std::min(std::pow(wanted, -1. / degree),
-                                        2 * solution.result.patch.half_width() / (1 - a));
+                                        2 * solution.result.contact.half_width() / (1 - a));
         EXPECT_LE(*errors.effectivity, 2 + n_cells / 2)
             << solution.result.mesh.n_unknowns << " unknowns";
       }

@@ -98,7 +98,7 @@ TEST(ContactPatch, LengthOnTheRoadIsThatOfItsArc) {
 /// Half the width of contact in the scene of figure 4 with other @p settings.
 double half_width_with(const std::vector<std::string>& settings) {
   const Parameters parameters = with(paper_scenes()[0].parameters(), settings);
-  return simulate(make_scene(parameters), parameters).result.patch.half_width();
+  return simulate(make_scene(parameters), parameters).result.contact.half_width();
 }
 
 TEST(ContactPatch, EndsAreWithinAFifthOfACellOnFewNodes) {
@@ -124,11 +124,11 @@ TEST(ContactPatch, UzawasMethodFindsOnePatchToItsTolerance) {
     const Parameters parameters =
         with(paper.parameters(), {"Mesh/Radial cells=4", "Certificate/Error bound=false"});
     const Scene scene = make_scene(parameters);
-    const ContactResultants exact = simulate(scene, parameters).result.patch;
+    const ContactResultants exact = simulate(scene, parameters).result.contact;
     for (const double tolerance : {1e-4, 1e-8}) {
       const Parameters by_uzawa =
           with(parameters, {"Contact/Method=uzawa", assignment("Contact/Tolerance", tolerance)});
-      const ContactResultants contact = simulate(scene, by_uzawa).result.patch;
+      const ContactResultants contact = simulate(scene, by_uzawa).result.contact;
       EXPECT_EQ(contact.patches.size(), 1u) << "figure " << paper.figure;
       EXPECT_NEAR(contact.half_width(), exact.half_width(), 100 * tolerance)
           << "figure " << paper.figure << ", tolerance " << tolerance;

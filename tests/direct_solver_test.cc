@@ -264,9 +264,9 @@ TEST(Direct, ContactFreeSolutionOfAConstantForceConverges) {
            "Mesh/Angular cells=6", "Cylinder/Radial force=-3", "Road/Distance=0.99"});
       const Scene scene = make_scene(parameters);
       const Solution solution = simulate(scene, parameters);
-      EXPECT_EQ(solution.result.patch.active_nodes, 0u);
-      EXPECT_EQ(solution.result.patch.force, 0);
-      EXPECT_FALSE(solution.result.patch.ends);
+      EXPECT_EQ(solution.result.contact.active_nodes, 0u);
+      EXPECT_EQ(solution.result.contact.force, 0);
+      EXPECT_FALSE(solution.result.contact.ends);
       errors.push_back(
           std::abs(solution.result.surface.front().displacement - free_displacement(scene, -3)));
     }

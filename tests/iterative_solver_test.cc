@@ -49,8 +49,8 @@ void expect_same_answer(const Scene& scene, const Parameters& parameters,
   FieldVector difference = iterative.on_mesh.displacement;
   difference -= direct.on_mesh.displacement;
   EXPECT_LE(difference.linfty_norm(), 1e-10 * direct.on_mesh.displacement.linfty_norm());
-  EXPECT_NEAR(iterative.result.patch.force, direct.result.patch.force,
-              1e-10 * direct.result.patch.force);
+  EXPECT_NEAR(iterative.result.contact.force, direct.result.contact.force,
+              1e-10 * direct.result.contact.force);
   EXPECT_NEAR(iterative.result.energy.value, direct.result.energy.value,
               1e-10 * std::abs(direct.result.energy.value));
 
@@ -268,7 +268,7 @@ TEST(Iterative, FullContactHasItsExactForceAtEverySpeed) {
     const Scene scene = full_circle(0.5, 1, omega, -0.1);
     const MeshAndSpace ring(scene, parameters);
     const Answer answer(scene, parameters, ring.boundary, "iterative");
-    EXPECT_EQ(answer.result.patch.active_nodes, 24u);
+    EXPECT_EQ(answer.result.contact.active_nodes, 24u);
     EXPECT_NEAR(answer.on_mesh.contact.state.force.l1_norm(),
                 2 * dealii::numbers::PI * 0.1 / std::log(2), 1e-6);
   }

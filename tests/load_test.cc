@@ -36,8 +36,8 @@ TEST(Load, GivesBackTheDistanceOfTheExactAnswer) {
                         "Mesh/Radial cells=6", "Mesh/Angular cells=120"});
       const Solution solution = solve_for(with_load);
       EXPECT_NEAR(solution.result.road_distance, 0.8, 1e-4) << kind;
-      const Loads loads = {solution.result.patch.force, solution.result.patch.vertical_load,
-                           solution.result.patch.work_conjugate_load};
+      const Loads loads = {solution.result.contact.force, solution.result.contact.vertical_load,
+                           solution.result.contact.work_conjugate_load};
       EXPECT_NEAR(loads.of(solution.scene.load->kind), load, 1e-9 * load);
       if (kind == std::string("vertical") && force == std::string("1")) {
         EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), 0.8, 8e-9);
@@ -63,7 +63,7 @@ TEST(Load, IsMetOnEveryMeshAndByEveryMethod) {
     const Solution solution =
         solve_for({"Road/Load=0.02", "Mesh/Radial cells=3", "Mesh/Angular cells=60", setting});
     const double load = solution.scene.load->value;
-    EXPECT_NEAR(solution.result.patch.vertical_load / load, 1, 1e-6) << setting;
+    EXPECT_NEAR(solution.result.contact.vertical_load / load, 1, 1e-6) << setting;
     EXPECT_TRUE(solution.result.shortfalls.empty());
   }
 }
@@ -101,7 +101,7 @@ TEST(Load, IsMetToANinthOrIsAShortfall) {
     const Solution solution = solve_for(
         {"Road/Load=" + load, "Mesh/Radial cells=4", "Mesh/Angular cells=60", "Mesh/Degree=1"});
     const double wanted = solution.scene.load->value;
-    EXPECT_TRUE(std::abs(solution.result.patch.vertical_load / wanted - 1) <= 1e-9 ||
+    EXPECT_TRUE(std::abs(solution.result.contact.vertical_load / wanted - 1) <= 1e-9 ||
                 !solution.result.shortfalls.empty())
         << load;
   }
@@ -128,7 +128,7 @@ TEST(Stiffness, IsThatOfTheExactAnswerAndFallsSteadily) {
       const Solution solution = solve_for(
           {assignment("Road/Distance", c), std::string("Mesh/Degree=") + degree,
            "Mesh/Radial cells=10", "Mesh/Angular cells=200", "Certificate/Error bound=false"});
-      const Loads& stiffness = solution.result.patch.stiffness;
+      const Loads& stiffness = solution.result.contact.stiffness;
       EXPECT_LT(stiffness.vertical, last);
       last = stiffness.vertical;
       for (unsigned int i = 0; i < distances.size(); ++i)
@@ -150,10 +150,10 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
   std::vector<std::string> near = drum, loaded = drum;
   near.push_back("Road/Distance=0.55");
   const Solution solution = solve_for(near);
-  EXPECT_TRUE(std::isnan(solution.result.patch.work_conjugate_load));
-  EXPECT_TRUE(std::isnan(solution.result.patch.stiffness.vertical));
+  EXPECT_TRUE(std::isnan(solution.result.contact.work_conjugate_load));
+  EXPECT_TRUE(std::isnan(solution.result.contact.stiffness.vertical));
   EXPECT_FALSE(solution.result.remarks.empty());
-  EXPECT_GT(solution.result.patch.force, 0.3);
+  EXPECT_GT(solution.result.contact.force, 0.3);
   EXPECT_FALSE(find_exact_solution(solution.scene));
   EXPECT_FALSE(
       find_exact_solution(make_scene(parameters_of({"Road/Curvature=50", "Road/Distance=0.7"}))));
@@ -175,7 +175,7 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
                  "Mesh/Wanted relative error=1e-3"})
           .result;
   EXPECT_TRUE(resolved.shortfalls.empty());
-  EXPECT_NEAR(resolved.patch.work_conjugate_load / 0.2, 1, 1e-9);
+  EXPECT_NEAR(resolved.contact.work_conjugate_load / 0.2, 1, 1e-9);
 }
 
 TEST(Load, DistanceIsEnclosed) {
@@ -192,7 +192,7 @@ TEST(Load, DistanceIsEnclosed) {
 TEST(Patches, ThatAForcePartsAreToldOneByOne) {
   const Solution solution = solve_for({"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)",
                                        "Mesh/Radial cells=6", "Mesh/Angular cells=180"});
-  const ContactResultants& contact = solution.result.patch;
+  const ContactResultants& contact = solution.result.contact;
   ASSERT_EQ(contact.patches.size(), 2u);
   const auto &left = contact.patches[0], &right = contact.patches[1];
   EXPECT_LT(left.end, 4.71238898);

@@ -44,9 +44,9 @@ TEST(ManufacturedScene, UnevenContactIsFoundAtEverySpeed) {
       EXPECT_LT(fine.true_errors.relative_energy_norm, degree == 1 ? 1e-2 : 2e-3);
       EXPECT_NEAR(std::log2(coarse.true_errors.energy_norm / fine.true_errors.energy_norm) / 2,
                   degree == 1 ? 1 : 1.5, degree == 1 ? 0.1 : 0.3);
-      EXPECT_NEAR(fine.result.patch.force / made.exact.force, 1, 2e-3);
-      EXPECT_NEAR(fine.result.patch.ends->first, 4.9 - 0.61, 0.01);
-      EXPECT_NEAR(fine.result.patch.ends->second, 4.9 + 0.61, 0.01);
+      EXPECT_NEAR(fine.result.contact.force / made.exact.force, 1, 2e-3);
+      EXPECT_NEAR(fine.result.contact.ends->first, 4.9 - 0.61, 0.01);
+      EXPECT_NEAR(fine.result.contact.ends->second, 4.9 + 0.61, 0.01);
     }
   }
 }
@@ -102,7 +102,7 @@ TEST(SmoothSolution, ConvergesWithTheOrderOfTheDegree) {
           {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=4", "Mesh/Angular cells=16",
            "Mesh/Global refinements=" + std::to_string(refinements)});
       const Result result = simulate(scene, parameters).result;
-      EXPECT_EQ(result.patch.active_nodes, 0u);
+      EXPECT_EQ(result.contact.active_nodes, 0u);
       // a(u - u_h, u - u_h) = 2 (J(u_h) - J(u)) without contact
       errors.push_back(std::sqrt(2 * result.energy.value + norm_squared));
     }

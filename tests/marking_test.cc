@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace rollwave;
 
 namespace {
@@ -24,7 +26,9 @@ struct Ring {
   unsigned int cut(const std::vector<double>& indicators, double fraction,
                    double most_cells = 1e6) {
     const unsigned int before = mesh->n_active_cells();
-    refine_mesh(*mesh, scene, indicators, Marking::bulk, fraction, most_cells);
+    RefinementOptions options;
+    options.marked_fraction = fraction;
+    refine_mesh(*mesh, scene, indicators, options, most_cells);
     return (mesh->n_active_cells() - before) / 3;
   }
 
@@ -66,8 +70,10 @@ TEST(Marking, TakesNoMoreCellsThanFit) {
   EXPECT_EQ(Ring(row_of_eight).cut(falling, 1, 8 + 3 * 3 - 1), 2u);
   EXPECT_EQ(Ring(row_of_eight).cut(falling, 0.6, 8 + 2), 0u);
   Ring ring(row_of_eight);
-  EXPECT_FALSE(refine_mesh(*ring.mesh, ring.scene, falling, Marking::all, 0.6, 31));
-  EXPECT_TRUE(refine_mesh(*ring.mesh, ring.scene, falling, Marking::all, 0.6, 32));
+  RefinementOptions options;
+  options.marking = Marking::all;
+  EXPECT_FALSE(refine_mesh(*ring.mesh, ring.scene, falling, options, 31));
+  EXPECT_TRUE(refine_mesh(*ring.mesh, ring.scene, falling, options, 32));
 }
 
 // The ring of the radii 0.999 and 1 is 3e-5 deep at the critical speed, and 0.45 with 0.5 and 1.
@@ -93,11 +99,31 @@ TEST(Marking, EndsAtTheFinestLevel) {
     std::vector<double> indicators;
     for (const auto& cell : mesh->active_cell_iterators())
       indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
-    is_cut = refine_mesh(*mesh, scene, indicators, Marking::bulk, 0.5, 1e6);
+    is_cut = refine_mesh(*mesh, scene, indicators, {}, 1e6);
   }
   EXPECT_FALSE(is_cut);
   EXPECT_EQ(mesh->n_levels(), 30);
   EXPECT_TRUE(is_at_finest_level(*mesh));
+}
+
+// The unit of length of a scene is a power of two, so that a factor of 1.5 is none.
+TEST(Kelly, IsALength) {
+  const auto indicators_of = [](double length) {
+    const Parameters parameters = parameters_of(
+        {assignment("Cylinder/Inner radius", 0.5 * length),
+         assignment("Cylinder/Outer radius", length),
+         assignment("Cylinder/Angular velocity", 0.5 / length),
+         assignment("Road/Distance", 0.8 * length), "Mesh/Degree=2", "Mesh/Radial cells=3",
+         "Mesh/Angular cells=40", "Certificate/Error bound=false"});
+    const Solution solution = simulate(make_scene(parameters), parameters);
+    return kelly_indicator(solution.space(), solution.displacement);
+  };
+  const std::vector<double> one = indicators_of(1), other = indicators_of(1.5);
+  ASSERT_EQ(one.size(), other.size());
+  const double largest = *std::max_element(one.begin(), one.end());
+  EXPECT_GT(largest, 0);
+  for (std::size_t cell = 0; cell < one.size(); ++cell)
+    EXPECT_NEAR(other[cell], 1.5 * one[cell], 1e-5 * largest);
 }
 
 } // namespace

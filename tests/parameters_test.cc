@@ -384,7 +384,7 @@ TEST(Parameters, EndsOfAGivenZoneAreVertices) {
     const Result result = simulate(scene, parameters).result;
     EXPECT_NEAR(result.contact_rows.front().angle, scene.zone_begin, 1e-13);
     EXPECT_NEAR(result.contact_rows.back().angle, scene.zone_end, 1e-13);
-    EXPECT_EQ(result.mesh.cells, 16u * std::stoi(cells));
+    EXPECT_EQ(result.mesh.n_cells, 16u * std::stoi(cells));
   }
 }
 

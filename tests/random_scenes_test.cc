@@ -101,7 +101,7 @@ bool compare_with_exact(const Scene& scene, const Parameters& parameters, const 
   const double radial_cells = parameters.mesh.radial_cells;
   const double norm = std::sqrt(2 * M_PI * std::max(2 / depth, radial_cells));
   // u_h is farther from v than the certificate knows by what v was moved, no more than its error.
-  EXPECT_LE(std::abs(result.patch.force - exact->force),
+  EXPECT_LE(std::abs(result.contact.force - exact->force),
             2 * norm * certified.energy_norm + 10 * exact->force_accuracy * std::abs(exact->force) +
                 1e-12 * norm * std::sqrt(certified.norm_squared));
   return true;
@@ -125,8 +125,8 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
   EXPECT_GE(results[0].energy.value - 2 * results[1].energy.value + results[2].energy.value,
             -1e-10 * energy);
   for (const int i : {0, 1}) {
-    const ContactResultants &near = results[i].patch, &far = results[i + 1].patch;
-    const double size = 1e-9 * std::abs(results[0].patch.work_conjugate_load);
+    const ContactResultants &near = results[i].contact, &far = results[i + 1].contact;
+    const double size = 1e-9 * std::abs(results[0].contact.work_conjugate_load);
     EXPECT_LE(far.work_conjugate_load, near.work_conjugate_load + size);
     // E(c) - E(c + d) lies between d G at both ends.
     const double fall = results[i].energy.value - results[i + 1].energy.value;
@@ -223,7 +223,7 @@ TEST(RandomScenes, HaveTheSameNumbersByUzawasMethod) {
 }
 
 double load_of(const Result& result, LoadKind kind) {
-  const ContactResultants& patch = result.patch;
+  const ContactResultants& patch = result.contact;
   return Loads{patch.force, patch.vertical_load, patch.work_conjugate_load}.of(kind);
 }
 

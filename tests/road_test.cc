@@ -121,8 +121,8 @@ TEST(Road, DrumsConvergeToTheExactAnswer) {
       const auto exact = find_exact_solution(solution.scene);
       ASSERT_TRUE(exact);
       const Result& result = solution.result;
-      EXPECT_NEAR(result.patch.force / exact->force, 1, 2e-3);
-      EXPECT_NEAR(result.patch.work_conjugate_load / exact->work_conjugate_load, 1, 2e-3);
+      EXPECT_NEAR(result.contact.force / exact->force, 1, 2e-3);
+      EXPECT_NEAR(result.contact.work_conjugate_load / exact->work_conjugate_load, 1, 2e-3);
       EXPECT_LE(result.certified->lower_bound, exact->energy);
       EXPECT_GE(result.certified->upper_bound, exact->energy);
       errors[level] = result.certified->energy_norm;
@@ -147,10 +147,10 @@ TEST(Road, CylinderThatFillsADrumTouchesItAllAround) {
                                                  assignment("Road/Distance", distance),
                                                  "Mesh/Radial cells=20", "Mesh/Angular cells=240"});
     const Result result = simulate(make_scene(parameters), parameters).result;
-    EXPECT_EQ(result.patch.active_nodes, 480u);
-    EXPECT_NEAR(result.patch.half_width(), dealii::numbers::PI, 1e-12);
-    EXPECT_NEAR(result.patch.force, force, 1e-6);
-    EXPECT_NEAR(result.patch.vertical_load, dealii::numbers::PI * sigma_1 * (1 / 0.9 - distance),
+    EXPECT_EQ(result.contact.active_nodes, 480u);
+    EXPECT_NEAR(result.contact.half_width(), dealii::numbers::PI, 1e-12);
+    EXPECT_NEAR(result.contact.force, force, 1e-6);
+    EXPECT_NEAR(result.contact.vertical_load, dealii::numbers::PI * sigma_1 * (1 / 0.9 - distance),
                 1e-6);
     EXPECT_NEAR(result.energy.value, energy, 1e-6);
     constexpr double rounding = 5e-11; // of the ten digits above
@@ -190,7 +190,7 @@ TEST(Road, StiffnessIsTheSlopeOfTheLoads) {
       return *find_exact_solution(with_distance(solution.scene, c));
     };
     const ExactSolution near = at(0.8 - h), far = at(0.8 + h);
-    const Loads& stiffness = solution.result.patch.stiffness;
+    const Loads& stiffness = solution.result.contact.stiffness;
     EXPECT_NEAR(stiffness.total / ((near.force - far.force) / (2 * h)), 1, 1e-3);
     EXPECT_NEAR(stiffness.vertical / ((near.vertical_load - far.vertical_load) / (2 * h)), 1, 1e-3);
     EXPECT_NEAR(stiffness.work_conjugate /

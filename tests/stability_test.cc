@@ -95,7 +95,7 @@ void expect_exact_answer(const Parameters& parameters) {
   const auto exact = find_exact_solution(scene);
   ASSERT_TRUE(exact);
   EXPECT_TRUE(result.shortfalls.empty()) << shortfall_text(result);
-  EXPECT_NEAR(result.patch.force / exact->force, 1, 1e-3);
+  EXPECT_NEAR(result.contact.force / exact->force, 1, 1e-3);
   EXPECT_LE(result.certified->lower_bound, exact->energy * (1 + 1e-9));
   EXPECT_GE(result.certified->upper_bound, exact->energy * (1 - 1e-9));
 }
@@ -135,7 +135,8 @@ TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
       const auto& cycles = simulate(make_scene(parameters), parameters).result.cycles;
       ASSERT_EQ(cycles.size(), 4u);
       for (unsigned int cycle = 1; cycle < cycles.size(); ++cycle)
-        EXPECT_LE(cycles[cycle].cells, 4 * cycles[cycle - 1].cells) << marking << ' ' << fraction;
+        EXPECT_LE(cycles[cycle].n_cells, 4 * cycles[cycle - 1].n_cells)
+            << marking << ' ' << fraction;
     }
 }
 

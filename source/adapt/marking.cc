@@ -6,6 +6,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/distributed/p4est_wrappers.h>
 #include <deal.II/distributed/tria.h>
+#include <deal.II/fe/mapping_q_cache.h>
 #include <deal.II/grid/grid_refinement.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/numerics/error_estimator.h>
@@ -24,17 +25,33 @@ unsigned int most_cycles(const RefinementOptions& options) {
       options.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
 }
 
-bool has_room_to_refine(const Triangulation<2>& triangulation, Marking marking, double most_cells) {
-  const double least_growth = marking == Marking::all ? 4 : 1.2;
+bool has_room_to_refine(const Triangulation<2>& triangulation, const RefinementOptions& options,
+                        double most_cells) {
+  const double least_growth = options.marking == Marking::all ? 4 : 1.2;
   return least_growth * triangulation.n_global_active_cells() <= most_cells;
 }
 
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field) {
-  Vector<float> indicators(space.dof_handler().get_triangulation().n_active_cells());
-  KellyErrorEstimator<2>::estimate(space.mapping(), space.dof_handler(),
+  const auto& triangulation = space.dof_handler().get_triangulation();
+  // In (r, b z), where both directions are lengths.
+  const double b = space.outer_radius();
+  MappingQCache<2> mapping(1);
+  mapping.initialize(
+      space.mapping(), triangulation,
+      [b](const auto&, const Point<2>& point) { return Point<2>(point[0], b * point[1]); },
+      /*function_describes_relative_displacement=*/false);
+  Vector<float> indicators(triangulation.n_active_cells());
+  KellyErrorEstimator<2>::estimate(mapping, space.dof_handler(),
                                    QGauss<1>(space.dof_handler().get_fe().degree + 1), {}, field,
                                    indicators);
-  return {indicators.begin(), indicators.end()};
+  std::vector<double> lengths(indicators.begin(), indicators.end());
+  for (const auto& cell : triangulation.active_cell_iterators()) {
+    // The estimator has the root of the diameter in (r, z) as a factor.
+    const Tensor<1, 2> diagonal = cell->vertex(3) - cell->vertex(0);
+    lengths[cell->active_cell_index()] *=
+        std::sqrt(std::hypot(diagonal[0], b * diagonal[1]) / diagonal.norm());
+  }
+  return lengths;
 }
 
 namespace {
@@ -88,9 +105,10 @@ double natural_depth(const Scene& scene) {
   return depth;
 }
 
-/// Flags the cells of the same level above and below each flagged cell that is longer than the ring
-/// is deep. What varies over its length reaches through the whole ring, and cells that differ in
-/// length would have to turn one trace into another within that depth, at a high cost.
+/// Flags the cells of the same level above and below each flagged cell that is longer than the
+/// natural depth of the ring. The solution there varies over one length from hub to surface.
+/// Without whole columns, cells of two lengths would meet within that depth, which costs many
+/// cells.
 void flag_columns(Triangulation<2>& triangulation, double depth) {
   for (const auto& cell : triangulation.active_cell_iterators()) {
     if (cell->is_artificial() || !cell->refine_flag_set() ||
@@ -145,13 +163,13 @@ void clear_flags(Triangulation<2>& triangulation) {
 } // namespace
 
 bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
-                 const std::vector<double>& indicators, Marking marking, double fraction,
+                 const std::vector<double>& indicators, const RefinementOptions& options,
                  double most_cells) {
   const Vector<double> scaled = scaled_indicators(triangulation, indicators);
   const double depth = natural_depth(scene);
   const auto flag = [&](double share) {
     clear_flags(triangulation);
-    if (marking == Marking::all)
+    if (options.marking == Marking::all)
       triangulation.set_all_refine_flags();
     else
       GridRefinement::refine(triangulation, scaled,
@@ -162,9 +180,9 @@ bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
     return complete_flags(triangulation, depth);
   };
   const double most_flagged = (most_cells - triangulation.n_global_active_cells()) / 3;
-  double n_flagged = flag(fraction);
-  if (marking == Marking::bulk && n_flagged > most_flagged) {
-    double fits = 0, is_too_large = fraction;
+  double n_flagged = flag(options.marked_fraction);
+  if (options.marking == Marking::bulk && n_flagged > most_flagged) {
+    double fits = 0, is_too_large = options.marked_fraction;
     for (int halving = 0; halving < 10; ++halving) {
       const double middle = (fits + is_too_large) / 2;
       (flag(middle) <= most_flagged ? fits : is_too_large) = middle;

@@ -79,7 +79,7 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
       stretches.push_back({i, i, i, 0});
     else if (opening > negligible_gap) {
       Stretch& before = stretches.back();
-      before.n_behind = (i - before.last) / 2; // of i - last - 1 nodes, rounded up
+      before.n_behind = (i - before.last) / 2; // half of the nodes in between
       stretches.push_back({i, i, before.n_behind, 0});
     } else
       stretches.back().last = i;

@@ -20,7 +20,7 @@ Progress report_progress(std::ostream& out, const Units& units) {
           << " mesh    cells unknowns contact steps  indicated error"
           << units.in_brackets(Quantity::energy_norm) << "  certified, relative\n";
     const double indicated = mesh.indicated * units.of(Quantity::energy_norm);
-    out << std::setw(5) << number << std::setw(9) << mesh.cells << std::setw(9) << mesh.n_unknowns
+    out << std::setw(5) << number << std::setw(9) << mesh.n_cells << std::setw(9) << mesh.n_unknowns
         << std::setw(14) << mesh.contact_steps << std::setw(17)
         << (mesh.indicated > 0 ? rounded(indicated, 3) : "-") << std::setw(21)
         << (mesh.certified ? rounded(*mesh.certified, 3) : "-") << '\n'

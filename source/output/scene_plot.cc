@@ -16,17 +16,17 @@ namespace {
 /// Half the range of angles around the contact, which is shown with half as much on both sides;
 /// without contact the gap is to be seen.
 double shown_angle(const Scene& scene, const Result& result) {
-  if (!result.patch.ends)
+  if (!result.contact.ends)
     return std::max(0.2, 3 * (scene.road.distance / scene.outer_radius - 1));
-  return 1.5 * std::max(std::abs(from_lowest_point(result.patch.ends->first)),
-                        std::abs(from_lowest_point(result.patch.ends->second)));
+  return 1.5 * std::max(std::abs(from_lowest_point(result.contact.ends->first)),
+                        std::abs(from_lowest_point(result.contact.ends->second)));
 }
 
 /// The depth of the ends of contact below the lowest point of the surface in contact, in units of
 /// b: on a small drum they lie far below it.
 double depth_of_ends(const Scene& scene, const Result& result) {
   double depth = 0;
-  if (const auto& ends = result.patch.ends)
+  if (const auto& ends = result.contact.ends)
     for (const double z : {ends->first, ends->second})
       depth = std::max(depth, (scene.outer_radius + scene.phi(z)) * std::cos(from_lowest_point(z)) -
                                   scene.road.distance);
@@ -57,7 +57,7 @@ std::string title_of(const Scene& scene, const Result& result) {
     title << "a = " << in_units(scene.inner_radius, Quantity::length)
           << ", b = " << in_units(b, Quantity::length)
           << ", c = " << in_units(scene.road.distance, Quantity::length)
-          << ", vertical load = " << in_units(result.patch.vertical_load, Quantity::force)
+          << ", vertical load = " << in_units(result.contact.vertical_load, Quantity::force)
           << "'.\"\\n\".'"
           << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
           << ", rho = " << units.material.density << units.after(Quantity::density)
@@ -65,7 +65,7 @@ std::string title_of(const Scene& scene, const Result& result) {
           << ", omega / critical = " << scene.angular_velocity * b;
   else
     title << "omega b = " << scene.angular_velocity * b << ",  c / b = " << scene.road.distance / b
-          << ",  a / b = " << scene.inner_radius / b << ",  F / b = " << result.patch.force / b;
+          << ",  a / b = " << scene.inner_radius / b << ",  F / b = " << result.contact.force / b;
   if (scene.road.curvature != 0)
     title << ",  kappa b = " << scene.road.curvature * b;
   return title.str();
@@ -190,16 +190,16 @@ Picture plot_scene(const Scene& scene, const Result& result) {
          << "\nc = " << scene.road.distance * length << "\nhalf = 1.08 * b * "
          << std::max(1.15, largest) << "\nangle = " << std::min(angle, 1.5) << "\nzoom = b * "
          << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
-         << "\nends = '" << (result.patch.ends ? "ends of contact" : "")
+         << "\nends = '" << (result.contact.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
          << "\nset multiplot title '" << title_of(scene, result) << "'\n"
          << pictures;
-  for (const ContactPatch& patch : result.patch.patches)
+  for (const ContactPatch& patch : result.contact.patches)
     for (const double z : {patch.begin, patch.end})
       script << "set arrow from " << from_lowest_point(z) << ",graph 0 to " << from_lowest_point(z)
              << ",graph 1 nohead dashtype 3 linewidth 1.5\n";
   script << gap;
-  if (!result.patch.ends)
+  if (!result.contact.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
   script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units))
          << " offset -1\n"

@@ -169,8 +169,8 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 void report_result(std::ostream& out, const Result& result, const Units& units) {
   const MeshFigures& mesh = result.mesh;
   const double length = units.of(Quantity::length);
-  out << "Mesh       Q" << mesh.degree << ", " << mesh.cells << " cells, " << mesh.n_unknowns
-      << " unknowns, " << mesh.contact_nodes << " contact nodes, h from " << mesh.h_min * length
+  out << "Mesh       Q" << mesh.degree << ", " << mesh.n_cells << " cells, " << mesh.n_unknowns
+      << " unknowns, " << mesh.n_contact_nodes << " contact nodes, h from " << mesh.h_min * length
       << " to " << mesh.h_max * length << units.after(Quantity::length) << "\n\nContact steps";
   if (result.rho > 0)
     out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
@@ -182,7 +182,7 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   for (const std::string& remark : result.remarks)
     out << "Note: " << remark << '\n';
   out << "\nResult\n";
-  report_patches(out, result.patch, units);
+  report_patches(out, result.contact, units);
   report_quantities(out, result, units);
   if (result.certified)
     report_certificate(out, result, units);
@@ -227,16 +227,16 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };
-  add("force F", Quantity::force, result.patch.force, exact.force, exact.force_accuracy);
-  add("vertical load", Quantity::force, result.patch.vertical_load, exact.vertical_load,
+  add("force F", Quantity::force, result.contact.force, exact.force, exact.force_accuracy);
+  add("vertical load", Quantity::force, result.contact.vertical_load, exact.vertical_load,
       exact.force_accuracy);
-  add("work-conjugate load G", Quantity::force, result.patch.work_conjugate_load,
+  add("work-conjugate load G", Quantity::force, result.contact.work_conjugate_load,
       exact.work_conjugate_load, exact.force_accuracy);
   add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width", Quantity::angle, result.patch.half_width(), exact.half_width,
+  add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,
       exact.half_width_accuracy);
-  add("peak pressure", Quantity::pressure, result.patch.peak_pressure, exact.peak_pressure, 0);
+  add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
   if (result.errors && result.errors->exact_distance)
     add("distance c for the load", Quantity::length, result.road_distance,
         *result.errors->exact_distance, 1e-10);

@@ -49,7 +49,7 @@ void add_quantities(const Result& result, const Units& units, Json& json) {
 
 Json patches_json(const Result& result, const Units& units) {
   Json json = Json::array();
-  for (const ContactPatch& patch : result.patch.patches)
+  for (const ContactPatch& patch : result.contact.patches)
     json.push_back({{"left_end", patch.begin},
                     {"right_end", patch.end},
                     {"length", patch.length * units.of(Quantity::length)},
@@ -62,7 +62,7 @@ Json patches_json(const Result& result, const Units& units) {
 Json cycles_json(const Result& result, const Units& units) {
   Json json = Json::array();
   for (const CycleFigures& cycle : result.cycles) {
-    json.push_back({{"cells", cycle.cells},
+    json.push_back({{"cells", cycle.n_cells},
                     {"dofs", cycle.n_unknowns},
                     {"contact_steps", cycle.contact_steps},
                     {"indicated_error", nullptr},

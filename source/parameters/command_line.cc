@@ -53,7 +53,7 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       throw BadInput("unknown option " + printable(*argument) + "; see rollwave --help");
     else if (!line.file.empty())
       throw BadInput("one parameter file at a time: " + printable(line.file.string()) + " or " +
-                     printable(*argument));
+                     printable(*argument) + "; a key is set by --set \"Section/Key=value\"");
     else
       line.file = *argument;
   }

@@ -48,8 +48,7 @@ bool Discretisation::refine(const std::vector<double>& indicators, const Scene& 
   const auto& mesh = options.mesh;
   {
     const RunStatistics::Phase phase(statistics, "mesh");
-    if (!refine_mesh(*triangulation, scene, indicators, mesh.marking, mesh.marked_fraction,
-                     most_cells(options)))
+    if (!refine_mesh(*triangulation, scene, indicators, mesh, most_cells(options)))
       return false;
   }
   cache = {};

@@ -55,7 +55,7 @@ Result measure(const MeshSolution& solution) {
   result.mesh = describe_mesh(solution.boundary);
   result.road_distance = solution.scene.road.distance;
   result.deflection = solution.scene.outer_radius - solution.scene.road.distance;
-  result.patch = solution.resultants;
+  result.contact = solution.resultants;
   result.energy = solution.energy;
   result.residuals = solution.residuals;
   result.history = solution.contact.history;

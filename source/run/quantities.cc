@@ -40,11 +40,11 @@ Quantities mesh_quantities() {
       {"mesh.degree", "degree of the elements", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.mesh.degree; }},
       {"mesh.cells", "cells", "", Quantity::count, 0, all_digits,
-       [](const Result& r) { return r.mesh.cells; }},
+       [](const Result& r) { return r.mesh.n_cells; }},
       {"mesh.dofs", "unknowns", "unknowns", Quantity::count, Shown::table, all_digits,
        [](const Result& r) { return r.mesh.n_unknowns; }},
       {"mesh.contact_nodes", "nodes in the zone of possible contact", "", Quantity::count, 0,
-       all_digits, [](const Result& r) { return r.mesh.contact_nodes; }},
+       all_digits, [](const Result& r) { return r.mesh.n_contact_nodes; }},
       {"mesh.h_min", "smallest diameter of a cell in (r, b z)", "", Quantity::length, 0, all_digits,
        [](const Result& r) { return r.mesh.h_min; }},
       {"mesh.h_max", "largest diameter of a cell h", "", Quantity::length, 0, all_digits,
@@ -55,13 +55,13 @@ Quantities mesh_quantities() {
 Quantities load_quantities() {
   return {
       {"contact.vertical_load", "vertical load", "", Quantity::force, Shown::screen | Shown::curve,
-       all_digits, [](const Result& r) { return r.patch.vertical_load; }},
+       all_digits, [](const Result& r) { return r.contact.vertical_load; }},
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
-       [](const Result& r) { return r.patch.force; }},
+       [](const Result& r) { return r.contact.force; }},
       {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force,
        Shown::screen | Shown::curve, all_digits,
-       [](const Result& r) { return r.patch.work_conjugate_load; }},
+       [](const Result& r) { return r.contact.work_conjugate_load; }},
       {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
        Quantity::force, 0, all_digits, of(&Result::load_bounds, &Bounds::lower)},
       {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
@@ -71,11 +71,12 @@ Quantities load_quantities() {
       {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
        all_digits, of(&Result::distance_bounds, &Bounds::upper)},
       {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
-       Shown::screen | Shown::curve, 4, [](const Result& r) { return r.patch.stiffness.vertical; }},
+       Shown::screen | Shown::curve, 4,
+       [](const Result& r) { return r.contact.stiffness.vertical; }},
       {"contact.stiffness.force", "stiffness -dF/dc", "", Quantity::stiffness, 0, 4,
-       [](const Result& r) { return r.patch.stiffness.total; }},
+       [](const Result& r) { return r.contact.stiffness.total; }},
       {"contact.stiffness.work_conjugate_load", "stiffness -dG/dc", "", Quantity::stiffness, 0, 4,
-       [](const Result& r) { return r.patch.stiffness.work_conjugate; }},
+       [](const Result& r) { return r.contact.stiffness.work_conjugate; }},
   };
 }
 
@@ -83,26 +84,26 @@ Quantities contact_quantities() {
   return {
       {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
        Shown::screen | Shown::curve, all_digits,
-       [](const Result& r) { return r.patch.peak_pressure; }},
+       [](const Result& r) { return r.contact.peak_pressure; }},
       {"contact.half_width", "half-width of contact", "", Quantity::angle, Shown::curve, all_digits,
        [](const Result& r) {
-         return r.patch.patches.size() < 2 ? r.patch.half_width() : not_known;
+         return r.contact.patches.size() < 2 ? r.contact.half_width() : not_known;
        }},
       {"contact.left_end", "begin of the first patch", "", Quantity::angle, 0, all_digits,
-       [](const Result& r) { return r.patch.ends ? r.patch.ends->first : not_known; }},
+       [](const Result& r) { return r.contact.ends ? r.contact.ends->first : not_known; }},
       {"contact.right_end", "end of the last patch", "", Quantity::angle, 0, all_digits,
-       [](const Result& r) { return r.patch.ends ? r.patch.ends->second : not_known; }},
+       [](const Result& r) { return r.contact.ends ? r.contact.ends->second : not_known; }},
       {"contact.length", "length of the road in contact", "", Quantity::length, 0, all_digits,
        [](const Result& r) {
          double length = 0;
-         for (const ContactPatch& patch : r.patch.patches)
+         for (const ContactPatch& patch : r.contact.patches)
            length += patch.length;
          return length;
        }},
       {"contact.patch_count", "patches", "", Quantity::count, 0, all_digits,
-       [](const Result& r) { return r.patch.patches.size(); }},
+       [](const Result& r) { return r.contact.patches.size(); }},
       {"contact.active_nodes", "nodes in contact", "", Quantity::count, 0, all_digits,
-       [](const Result& r) { return r.patch.active_nodes; }},
+       [](const Result& r) { return r.contact.active_nodes; }},
   };
 }
 

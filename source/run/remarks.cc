@@ -65,7 +65,7 @@ std::string cost_text(const RunOptions& options, const Result& result) {
 /// On contact that ends where the zone does, other than at the tangent of a drum.
 std::string remark_on_zone_ends(const RunOptions& options, const Scene& scene,
                                 const Result& result) {
-  const auto& ends = result.patch.ends;
+  const auto& ends = result.contact.ends;
   const double tangent = scene.road.tangent_angle();
   const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
   if (!ends || scene.is_whole_circle() || zone_ends_at_tangent ||
@@ -103,7 +103,7 @@ std::string remark_on_certificate(const RunOptions& options, const Result& resul
 
 /// On contact that the mesh is too coarse for.
 std::string remark_on_resolution(const MeshSolution& solution, const Result& result) {
-  const unsigned int n_nodes = result.patch.active_nodes;
+  const unsigned int n_nodes = result.contact.active_nodes;
   std::string what;
   if (n_nodes == 0) {
     if (passes_road(solution.scene, {solution.boundary.space(), solution.displacement}))

@@ -53,9 +53,13 @@ std::vector<double> indicate(const RunOptions& options, const Discretisation& me
                              const std::optional<Certificate>& certificate,
                              RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "indicator");
-  if (certificate && options.mesh.indicator == Indicator::certificate)
+  switch (certificate ? options.mesh.indicator : Indicator::kelly) {
+  case Indicator::certificate:
     return certificate->cell_bounds;
-  return kelly_indicator(*mesh.space, solution.displacement);
+  case Indicator::kelly:
+    return kelly_indicator(*mesh.space, solution.displacement);
+  }
+  throw ExcInternalError();
 }
 
 /// sqrt(sum eta_K^2) over the cells of all processes.
@@ -97,7 +101,7 @@ bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSo
   const bool has_failed = options.certificate.error_bound && !certificate;
   return has_failed || is_load_beyond_meshes(solution, n_meshes) ||
          n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
-         !has_room_to_refine(*mesh.triangulation, options.mesh.marking, most_cells(options));
+         !has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options));
 }
 
 std::string interrupted_text(unsigned int n_meshes) {
@@ -123,8 +127,9 @@ void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSol
 }
 
 /// Adds the targets that were not reached, and the remarks.
-void judge(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
-           const std::optional<Certificate>& certificate, Result& result) {
+void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation& mesh,
+                                const MeshSolution& solution,
+                                const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
   if (wants_error && certificate && !is_reached(options, certificate) &&
       !is_load_beyond_meshes(solution, result.cycles.size()))
@@ -146,7 +151,7 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
   result.is_interrupted = is_interrupted;
   if (certificate)
     result.certified = certificate->error;
-  judge(options, mesh, last, certificate, result);
+  add_shortfalls_and_remarks(options, mesh, last, certificate, result);
   if (options.certificate.load_bounds && certificate && !is_interrupted)
     attempt([&] { enclose_load(options, mesh, last, certificate->error, statistics, result); },
             "the load could not be enclosed",

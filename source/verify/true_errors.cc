@@ -185,9 +185,9 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
       exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
   errors.l2_norm = l2_error(space, field, exact);
   errors.pressure = std::sqrt(pressure_distance_squared(exact, result));
-  errors.force = std::abs(result.patch.force - exact.force);
+  errors.force = std::abs(result.contact.force - exact.force);
   errors.energy = std::abs(result.energy.value - exact.energy);
-  errors.half_width = std::abs(result.patch.half_width() - exact.half_width);
+  errors.half_width = std::abs(result.contact.half_width() - exact.half_width);
   // Free ends allow 3/2 at most on uniform meshes, ends cut short by the zone 1/2.
   const double degree = result.mesh.degree;
   const bool is_uniform = !space.dof_handler().get_triangulation().has_hanging_nodes();

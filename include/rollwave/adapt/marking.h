@@ -40,28 +40,29 @@ unsigned int most_cycles(const RefinementOptions& options);
 
 /// True if a further mesh is worth its solution: a fifth more cells fit or, with Marking::all, four
 /// times as many.
-bool has_room_to_refine(const dealii::Triangulation<2>& triangulation, Marking marking,
-                        double most_cells);
+bool has_room_to_refine(const dealii::Triangulation<2>& triangulation,
+                        const RefinementOptions& options, double most_cells);
 
-/// Jumps of the normal derivative for each active cell. They ignore alpha, the force and the
-/// contact.
+/// Jumps of the normal derivative in (r, b z), a length for each active cell, 0 on cells of other
+/// processes. They ignore alpha, the force and the contact.
 std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& field);
 
 /**
  * Cuts the marked cells of @p triangulation in four and shares the cells among the processes anew.
- * @p indicators are the eta_K of its active cells. Bulk marking is that of W. Doerfler (SIAM J.
- * Numer. Anal. 33 (1996) 1106-1124): the fewest cells with sum eta_K^2 >= @p fraction of the whole.
- * Cells with the same indicator are marked together, so that symmetric scenes keep symmetric
- * meshes, and the mesh does not depend on the number of processes.
+ * @p indicators are the eta_K of its active cells; those of other processes' cells are not used.
+ * Bulk marking is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells
+ * with sum eta_K^2 >= marked_fraction of the whole. Cells with the same indicator are marked
+ * together, so that symmetric scenes keep symmetric meshes, and the mesh does not depend on the
+ * number of processes.
  *
- * If more than @p most_cells active cells would come of it, the fraction is smaller. Neighbours
- * differ by one level at most, over the seam as well. Cells of level 29 are not cut: CellId and
- * p4est have no room beyond.
+ * If that gives more than @p most_cells active cells, the fraction is smaller. Neighbours differ by
+ * one level at most, over the seam as well. Cells of level 29 are not cut, the limit of CellId and
+ * p4est.
  *
  * @return false, with the mesh as it was, if no cell is marked or no marked cell fits
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
-                 const std::vector<double>& indicators, Marking marking, double fraction,
+                 const std::vector<double>& indicators, const RefinementOptions& options,
                  double most_cells);
 
 /// True if there are cells that cannot be cut again.

@@ -17,8 +17,8 @@
 namespace rollwave {
 
 /**
- * The values of a parameter file, one member for each key, in the file's sections. Lengths share
- * one unit, chosen by the user; angles are in radians; the wave speed and the shear modulus are 1.
+ * The values of a parameter file, one member for each key, in the file's sections. They
+ * are in the user's units; angles are in radians.
  */
 struct Parameters : RunOptions {
   StudyOptions study;

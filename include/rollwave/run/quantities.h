@@ -32,8 +32,9 @@ struct ResultQuantity {
   unsigned int shown;  ///< flags of Shown
   unsigned int digits; ///< significant ones on the screen and in tables
 
-  /// The number in the units of the scene: nullopt where the run was not asked for it, not a number
-  /// where it is not known.
+  /// The number in the units of the scene: nullopt if the run was not asked for it, which leaves it
+  /// out of summary.json; NaN if it is not known, such as an end without contact, which is null
+  /// there. Both are empty fields in study.csv.
   std::function<std::optional<double>(const Result&)> value;
 
   std::optional<double> in_users_units(const Result& result, const Units& units) const;

@@ -13,9 +13,9 @@ namespace rollwave {
 
 struct MeshFigures {
   unsigned int degree;
-  unsigned int cells;
+  unsigned int n_cells;
   unsigned int n_unknowns; ///< unknowns: hub, seam and hanging nodes are not counted
-  unsigned int contact_nodes;
+  unsigned int n_contact_nodes;
   double h_min; ///< smallest cell diameter in (r, b z), a length
   double h_max; ///< largest cell diameter in (r, b z), a length
 };
@@ -33,7 +33,7 @@ struct Bounds {
 
 /// One mesh of an adaptive run.
 struct CycleFigures {
-  unsigned int cells;
+  unsigned int n_cells;
   unsigned int n_unknowns;
   unsigned int contact_steps;
   double indicated;                ///< sqrt(sum eta_K^2); 0 on the last mesh
@@ -97,7 +97,7 @@ struct Result {
   MeshFigures mesh;
   double road_distance; ///< c, a length
   double deflection;    ///< b - c, a length: how far the axle sinks after the first touch
-  ContactResultants patch;
+  ContactResultants contact;
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;

@@ -15,7 +15,7 @@ struct RunOptions {
   CylinderOptions cylinder;
   RoadOptions road;
   MaterialOptions material;
-  struct : MeshOptions, RefinementOptions {
+  struct Mesh : MeshOptions, RefinementOptions {
   } mesh;
   CertificateOptions certificate;
   ContactOptions contact;
