@@ -41,6 +41,7 @@ install_missing() {
 # build TARGET [DIRECTORY] [OPTIONS of cmake]
 build() {
   local target=$1 directory=${2:-build}
+  echo "Building (two or three minutes the first time) ..."
   # In one piece for each core, which read deal.II's headers once: a quarter of the time. With tests
   # or without, the objects of the program are the same and stay.
   local sources=(source/*/*.cc) cores

@@ -7,6 +7,7 @@
 #include "rollwave/output/progress_report.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
+#include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"

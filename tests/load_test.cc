@@ -39,6 +39,9 @@ TEST(Load, GivesBackTheDistanceOfTheExactAnswer) {
       const Loads loads = {solution.result.contact.force, solution.result.contact.vertical_load,
                            solution.result.contact.work_conjugate_load};
       EXPECT_NEAR(loads.of(solution.scene.load->kind), load, 1e-9 * load);
+      const DistanceStep& last_step = solution.result.distance_history.back();
+      EXPECT_NEAR(last_step.load, load, 1e-9 * load);
+      EXPECT_NEAR(last_step.distance, solution.result.road_distance, 1e-12);
       if (kind == std::string("vertical") && force == std::string("1")) {
         EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), 0.8, 8e-9);
       }

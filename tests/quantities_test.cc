@@ -2,6 +2,7 @@
 // on many processes.
 #include "quantities.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/output/summary_json.h"
 #include "rollwave/scene/units.h"
 #include "test_scenes.h"
@@ -66,6 +67,23 @@ TEST(Quantities, AreThoseOfEveryMethod) {
     expect_same_quantities(summary_of(with(parameters, {"Contact/Method=uzawa"})), expected,
                            tolerance_of_uzawa);
   }
+}
+
+// A bound of few digits is still a bound, and no further away than its last digit.
+TEST(Rounding, KeepsBounds) {
+  for (const double number :
+       {1886.724657, 1886.7255941, 0.00070525, 0.001, 5e-9, 1., 9.9999, 123e10})
+    for (const double sign : {1., -1.})
+      for (const int digits : {1, 3, 9}) {
+        const double x = sign * number, up = std::stod(rounded_up(x, digits)),
+                     down = std::stod(rounded_down(x, digits)),
+                     last_digit = std::pow(10., std::floor(std::log10(number)) + 1 - digits);
+        EXPECT_LE(x, up);
+        EXPECT_GE(x, down);
+        EXPECT_LE(up - down, last_digit * (1 + 1e-6));
+      }
+  EXPECT_EQ(rounded_up(0.001, 3), "0.001");
+  EXPECT_EQ(rounded_down(0, 3), "0");
 }
 
 } // namespace

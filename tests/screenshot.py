@@ -27,16 +27,18 @@ displacement = next(name for name in (solution.GetPointData().GetArrayName(i) fo
 low, high = solution.GetPointData().GetArray(displacement).GetRange()
 colours = vtk.vtkColorTransferFunction()
 colours.SetColorSpaceToDiverging()
-top = max(abs(low), abs(high))
-colours.AddRGBPoint(-top, 0.230, 0.299, 0.754)
+low, high = min(low, 0), max(high, 0)
+if low < 0:
+    colours.AddRGBPoint(low, 0.230, 0.299, 0.754)
 colours.AddRGBPoint(0, 0.865, 0.865, 0.865)
-colours.AddRGBPoint(top, 0.706, 0.016, 0.150)
+if high > 0:
+    colours.AddRGBPoint(high, 0.706, 0.016, 0.150)
 mapper = vtk.vtkPolyDataMapper()
 mapper.SetInputConnection(surface_filter.GetOutputPort())
 mapper.SetScalarModeToUsePointFieldData()
 mapper.SelectColorArray(displacement)
 mapper.SetLookupTable(colours)
-mapper.SetScalarRange(-top, top)
+mapper.SetScalarRange(low, high)
 field = vtk.vtkActor()
 field.SetMapper(mapper)
 renderer = vtk.vtkRenderer()
@@ -54,6 +56,7 @@ def line(name, colour, width):
     actor.SetMapper(lines)
     actor.GetProperty().SetColor(*colour)
     actor.GetProperty().SetLineWidth(width)
+    actor.GetProperty().SetRenderLinesAsTubes(True)
     renderer.AddActor(actor)
 
 

@@ -178,6 +178,21 @@ TEST_F(RepeatedStudy, SaysWhatIsShared) {
   EXPECT_EQ(rows()[1]->values.count("seconds.factorisation"), 0u);
 }
 
+// The distance for a load is compared with the exact one, the other errors with those at its own.
+TEST_F(RepeatedStudy, HasTheErrorOfTheDistanceForALoad) {
+  const std::vector<std::string> settings = {
+      "Road/Load=0.3", "Study/True errors=true",
+      "Study/Vary=Mesh/Radial cells & Mesh/Angular cells = 3 & 40 | 6 & 80"};
+  run(settings);
+  Study study = planned(settings);
+  read_csv(read("study.csv"), study);
+  const double coarse = study.value(0, "error.exact_distance").value(),
+               fine = study.value(1, "error.exact_distance").value();
+  EXPECT_GT(fine, 0);
+  EXPECT_LT(fine, coarse);
+  EXPECT_LT(coarse, 1e-3);
+}
+
 /// The orders of a study with true errors, where the error of a run is the product of @p factor
 /// and N^(-0.75) with its number N of cells, and as many unknowns.
 std::string orders(

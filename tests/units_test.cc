@@ -170,7 +170,7 @@ TEST(Units, StandBehindTheNumbersOnTheScreen) {
   report_scene(screen, scene, parameters);
   report_result(screen, solve(settings, {}).result, scene.units);
   for (const char* const part :
-       {"b = 0.035 m", " rad/s", " N/m^2\n", " N/m\n", " N m\n", " N m,", "(N m)^(1/2)"})
+       {"b = 0.035 m", " rad/s", " N/m^2\n", " N/m\n", " N m\n", "(N m)^(1/2)"})
     EXPECT_NE(screen.str().find(part), std::string::npos) << part << '\n' << screen.str();
 }
 

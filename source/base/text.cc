@@ -55,6 +55,19 @@ std::string rounded(double number, int digits) {
   return text.str();
 }
 
+std::string rounded_up(double number, int digits) {
+  const std::string nearest = rounded(number, digits);
+  if (!std::isfinite(number) || number == 0 || std::stod(nearest) >= number)
+    return nearest;
+  const double last_digit = std::pow(10., std::floor(std::log10(std::abs(number))) + 1 - digits);
+  return rounded(number + last_digit / 2, digits);
+}
+
+std::string rounded_down(double number, int digits) {
+  const std::string up = rounded_up(-number, digits);
+  return number > 0 ? up.substr(1) : number < 0 ? '-' + up : up;
+}
+
 std::string shortest_text(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof(text), number).ptr};

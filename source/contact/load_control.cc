@@ -145,6 +145,8 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
     const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);
     road.pressure = problem.pressures(contact.state.force);
     road.load = loads_of(problem, contact.state.force).of(kind);
+    road.history.push_back(
+        {road.distance, road.load, static_cast<unsigned int>(contact.history.size())});
     const double excess = road.load - wanted;
     if (std::abs(excess) <= tolerance * wanted)
       return road;

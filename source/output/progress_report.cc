@@ -2,7 +2,10 @@
 
 #include "rollwave/base/text.h"
 
+#include <deal.II/base/timer.h>
+
 #include <iomanip>
+#include <memory>
 #include <ostream>
 
 namespace rollwave {
@@ -23,8 +26,22 @@ Progress report_progress(std::ostream& out, const Units& units) {
     out << std::setw(5) << number << std::setw(9) << mesh.n_cells << std::setw(9) << mesh.n_unknowns
         << std::setw(14) << mesh.contact_steps << std::setw(17)
         << (mesh.indicated > 0 ? rounded(indicated, 3) : "-") << std::setw(21)
-        << (mesh.certified ? rounded(*mesh.certified, 3) : "-") << '\n'
+        << (mesh.certified ? rounded_up(*mesh.certified, 3) : "-") << '\n'
         << std::flush;
+  };
+  return progress;
+}
+
+Progress report_long_runs(std::ostream& out) {
+  Progress progress;
+  const auto since_last_line = std::make_shared<dealii::Timer>();
+  progress.mesh_solved = [&out, since_last_line](unsigned int number, const CycleFigures& mesh) {
+    constexpr double seconds_between_lines = 5;
+    if (since_last_line->wall_time() < seconds_between_lines)
+      return;
+    out << "  mesh " << number << ", " << mesh.n_unknowns << " unknowns"
+        << (mesh.certified ? ", certified " + rounded_up(*mesh.certified, 3) : "") << std::endl;
+    since_last_line->restart();
   };
   return progress;
 }

@@ -48,11 +48,10 @@ std::string title_of(const Scene& scene, const Result& result) {
   const double b = scene.outer_radius;
   const Units& units = scene.units;
   const auto in_units = [&](double number, Quantity quantity) {
-    return rounded(number * units.of(quantity), 4) + units.after(quantity);
+    return rounded(number * units.of(quantity), 6) + units.after(quantity);
   };
   std::ostringstream title;
   title.precision(4);
-  title << (result.rho > 0 ? "Uzawa" : "active set") << ", Q" << result.mesh.degree << ":  ";
   if (has_own_units(units))
     title << "a = " << in_units(scene.inner_radius, Quantity::length)
           << ", b = " << in_units(b, Quantity::length)
@@ -68,6 +67,7 @@ std::string title_of(const Scene& scene, const Result& result) {
           << ",  a / b = " << scene.inner_radius / b << ",  F / b = " << result.contact.force / b;
   if (scene.road.curvature != 0)
     title << ",  kappa b = " << scene.road.curvature * b;
+  title << ";  Q" << result.mesh.degree << ", " << (result.rho > 0 ? "Uzawa" : "active set");
   return title.str();
 }
 
@@ -124,7 +124,8 @@ plot '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c' noti
      '$surface' using 1:2 with lines linestyle 1 title 'deformed', \
      a*cos(t),a*sin(t) with filledcurves closed fillcolor rgb '#ffffff' notitle, \
      a*cos(t),a*sin(t) with lines linestyle 4 title 'hub', \
-     '$road' using 1:2 with lines linestyle 3 title 'road'
+     '$road' using 1:2 with lines linestyle 3 title 'road', \
+     NaN,NaN with lines dashtype 3 linewidth 1.5 linecolor black title ends
 unset key
 set lmargin at screen 0.58
 set rmargin at screen 0.98
@@ -155,10 +156,7 @@ set ytics font ',10'
 set ylabel 'gap'.unit offset -1
 set xlabel ''
 set format x ''
-set key default inside center top opaque
-plot '$contact' using 1:2 with lines linestyle 3 notitle, \
-     NaN with lines dashtype 3 linewidth 1.5 linecolor black title ends
-unset key
+plot '$contact' using 1:2 with lines linestyle 3
 )";
 const char* const pressure = R"(
 set tmargin at screen 0.31

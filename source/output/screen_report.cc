@@ -28,6 +28,22 @@ void print_table(std::ostream& out, const TableHandler& table) {
   out << text.str();
 }
 
+/// The search for the distance of a given load.
+void report_distances(std::ostream& out, const std::vector<DistanceStep>& history,
+                      const Units& units) {
+  const std::string distance = "distance c" + units.in_brackets(Quantity::length),
+                    load = "load" + units.in_brackets(Quantity::force);
+  TableHandler table;
+  for (unsigned int step = 0; step < history.size(); ++step) {
+    table.add_value("step", step + 1);
+    table.add_value(distance, rounded(history[step].distance * units.of(Quantity::length), 9));
+    table.add_value(load, rounded(history[step].load * units.of(Quantity::force), 9));
+    table.add_value("contact steps", history[step].contact_steps);
+  }
+  out << "\nDistance steps by Newton's method\n";
+  print_table(out, table);
+}
+
 /// A longer history is printed without its middle.
 constexpr unsigned int most_lines = 40;
 
@@ -74,16 +90,18 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
   }
   const auto range = [&](const char* what, double lower, double upper, Quantity quantity) {
     const double unit = units.of(quantity);
-    out << what << std::setprecision(9) << lower * unit << " to " << upper * unit
+    out << what << rounded_down(lower * unit, 9) << " to " << rounded_up(upper * unit, 9)
         << units.after(quantity);
   };
   range("Certified  J(u) from ", certified.lower_bound, certified.upper_bound, Quantity::energy);
-  out << ", error in the energy norm at most " << std::setprecision(3)
-      << certified.energy_norm * units.of(Quantity::energy_norm)
-      << units.after(Quantity::energy_norm)
-      << (std::isfinite(certified.relative) ? ", relative " + rounded(certified.relative, 3)
-                                            : std::string(", no relative bound"))
+  out << "\n           error in the energy norm at most "
+      << rounded_up(certified.energy_norm * units.of(Quantity::energy_norm), 3)
+      << units.after(Quantity::energy_norm) << ", "
+      << (std::isfinite(certified.relative) ? "relative " + rounded_up(certified.relative, 3)
+                                            : std::string("no relative bound"))
       << '\n';
+  if (result.energy.value < certified.lower_bound || result.energy.value > certified.upper_bound)
+    out << "           J(u_h) lies outside: the bounds are those of the exact solution u\n";
   if (certified.sampled_width > 0)
     out << "           features of the force smaller than "
         << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
@@ -121,7 +139,7 @@ void report_quantities(std::ostream& out, const Result& result, const Units& uni
       continue;
     const std::string symbol = quantity.symbol.empty() ? "   " : quantity.symbol + " =";
     out << "  " << std::left << std::setw(width - symbol.size()) << quantity.words << symbol << ' '
-        << rounded(*value, quantity.digits) << units.after(quantity.quantity) << '\n';
+        << quantity.text(*value) << units.after(quantity.quantity) << '\n';
   }
 }
 
@@ -171,7 +189,10 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   const double length = units.of(Quantity::length);
   out << "Mesh       Q" << mesh.degree << ", " << mesh.n_cells << " cells, " << mesh.n_unknowns
       << " unknowns, " << mesh.n_contact_nodes << " contact nodes, h from " << mesh.h_min * length
-      << " to " << mesh.h_max * length << units.after(Quantity::length) << "\n\nContact steps";
+      << " to " << mesh.h_max * length << units.after(Quantity::length) << '\n';
+  if (!result.distance_history.empty())
+    report_distances(out, result.distance_history, units);
+  out << "\nContact steps";
   if (result.rho > 0)
     out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
         << units.after(Quantity::force_density);
@@ -190,67 +211,6 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
     out << "Shortfall  " << shortfall_text(result) << '\n';
   report_residuals(out, result);
   out << std::setprecision(6);
-}
-
-namespace {
-
-/// The errors against the exact solution in norms.
-void report_errors(std::ostream& out, const Result& result, const Units& units) {
-  const auto print = [&](const std::string& name, const std::string& words) {
-    const ResultQuantity& quantity = result_quantity(name);
-    const auto value = quantity.in_users_units(result, units);
-    out << words
-        << (value ? rounded(*value, quantity.digits) + units.after(quantity.quantity)
-                  : "below the accuracy of the reference solution");
-  };
-  print("error.exact_energy_norm", "Error in the energy norm ");
-  if (result.errors->is_resolved)
-    print("error.exact_relative", ", relative ");
-  print("error.exact_l2_norm", "; in L2 ");
-  print("error.exact_pressure", ", of the pressure in the discrete L2 norm ");
-  out << '\n';
-}
-
-} // namespace
-
-void report_verification(std::ostream& out, const Scene& scene, const Result& result,
-                         const ExactSolution& exact) {
-  const Units& units = scene.units;
-  TableHandler table;
-  const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
-                       double accuracy) {
-    const double unit = units.of(quantity);
-    table.add_value("quantity", name + units.in_brackets(quantity));
-    table.add_value("computed", rounded(ours * unit, 12));
-    table.add_value("exact", rounded(theirs * unit, 12));
-    table.add_value("difference", rounded((ours - theirs) * unit, 3));
-    table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
-    table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
-  };
-  add("force F", Quantity::force, result.contact.force, exact.force, exact.force_accuracy);
-  add("vertical load", Quantity::force, result.contact.vertical_load, exact.vertical_load,
-      exact.force_accuracy);
-  add("work-conjugate load G", Quantity::force, result.contact.work_conjugate_load,
-      exact.work_conjugate_load, exact.force_accuracy);
-  add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
-  add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,
-      exact.half_width_accuracy);
-  add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
-  if (result.errors && result.errors->exact_distance)
-    add("distance c for the load", Quantity::length, result.road_distance,
-        *result.errors->exact_distance, 1e-10);
-  out << "\nVerification against the semi-analytic solution";
-  if (scene.load)
-    out << " at the computed distance " << rounded(result.road_distance * units.length, 9)
-        << units.after(Quantity::length);
-  out << '\n';
-  print_table(out, table);
-  if (!exact.ends_resolved)
-    out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
-           "are.\n";
-  if (result.errors)
-    report_errors(out, result, units);
 }
 
 void report_files(std::ostream& out, const WrittenFiles& written) {

@@ -36,6 +36,14 @@ std::string refusal_of(const Setting& setting, const std::string& reason) {
          in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
 }
 
+/// Advice on a number that is followed by something else; empty for other texts.
+std::string hint_on_number(const std::string& value) {
+  static const std::regex number_and_more(R"([+-]?\d[\d.]*[ ]*[,a-zA-Z/].*)");
+  return std::regex_match(value, number_and_more)
+             ? ": numbers have a decimal point and no unit, which Output/Unit names gives"
+             : "";
+}
+
 } // namespace
 
 Setting parse_setting(const std::string& text, const std::string& origin) {
@@ -77,7 +85,9 @@ void Keys::declare(const std::string& name, const std::string& default_value, co
       parse(setting);
     } catch (const BadInput& error) {
       const std::string reason = error.what();
-      throw BadInput(refusal_of(setting, reason.empty() ? "invalid. Expected: " + text : reason));
+      throw BadInput(refusal_of(setting, reason.empty() ? "invalid" + hint_on_number(value) +
+                                                              ". Expected: " + text
+                                                        : reason));
     }
     if (origin)
       settings.push_back(setting);
@@ -97,7 +107,7 @@ const Key& Keys::at(const Setting& setting) const {
   return *key;
 }
 
-/// The three keys, or without a name the sections, that are spelt most like these.
+/// The keys, or without a name the sections, that are spelt most like these: up to three.
 std::string Keys::nearest(const std::string& section, const std::string& name) const {
   std::set<std::pair<unsigned int, std::string>> known;
   for (const Key& key : keys) {
@@ -107,8 +117,10 @@ std::string Keys::nearest(const std::string& section, const std::string& name) c
     known.emplace(distance, name.empty() ? key.section : key.path());
   }
   std::string text;
+  constexpr unsigned int similar = 3; // further letters
   for (auto candidate = known.begin(); candidate != std::next(known.begin(), 3); ++candidate)
-    text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
+    if (candidate->first <= known.begin()->first + similar)
+      text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
   return text + "? (case matters)";
 }
 
@@ -137,8 +149,13 @@ void Keys::read(const std::string& text, const std::string& file) {
     message = std::regex_replace(message, std::regex("\\.$"), "");
     std::smatch unknown;
     std::string hint;
-    if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>")))
+    if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>.*"))) {
       hint = nearest("", unknown[1]);
+      message =
+          std::string(unknown.prefix()) + "no key " + in_quotes(unknown[1]) + " in this section";
+    } else if (std::regex_search(message, unknown, std::regex("could not be parsed.*")))
+      message = std::string(unknown.prefix()) + "is not of the form set KEY = VALUE, subsection "
+                                                "NAME or end";
     else if (std::regex_search(message, unknown, std::regex("subsection to be entered: (.*)")))
       hint = std::string(unknown[1]).find('.') == std::string::npos
                  ? nearest(unknown[1], "")

@@ -53,7 +53,7 @@ std::vector<std::string> values_of(const std::string& text) {
   const double n_values = step == 0 ? 0 : std::floor((last - first) / step + 1e-9) + 1;
   if (!(n_values >= 1 && n_values <= most_values))
     throw BadInput(in_quotes(text) + " is no range first : last : step of 1 to " +
-                   std::to_string(most_values) + " values");
+                   std::to_string(most_values) + " values; a range that falls has a negative step");
   std::vector<std::string> values;
   for (unsigned int i = 0; i < n_values; ++i) {
     const double value = first + i * step;

@@ -55,6 +55,9 @@ Result measure(const MeshSolution& solution) {
   result.mesh = describe_mesh(solution.boundary);
   result.road_distance = solution.scene.road.distance;
   result.deflection = solution.scene.outer_radius - solution.scene.road.distance;
+  result.relative_deflection =
+      result.deflection / (solution.scene.outer_radius - solution.scene.inner_radius);
+  result.distance_history = solution.distance_history;
   result.contact = solution.resultants;
   result.energy = solution.energy;
   result.residuals = solution.residuals;

@@ -1,5 +1,7 @@
 #include "rollwave/run/quantities.h"
 
+#include "rollwave/base/text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,8 +37,11 @@ Quantities mesh_quantities() {
   return {
       {"scene.road_distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
        [](const Result& r) { return r.road_distance; }},
-      {"scene.deflection", "deflection b - c", "", Quantity::length, Shown::screen | Shown::curve,
-       all_digits, [](const Result& r) { return r.deflection; }},
+      {"scene.deflection", "deflection", "b - c", Quantity::length,
+       Shown::screen | Shown::varied_table, all_digits,
+       [](const Result& r) { return r.deflection; }},
+      {"scene.relative_deflection", "deflection over thickness", "", Quantity::number,
+       Shown::screen, 3, [](const Result& r) { return r.relative_deflection; }},
       {"mesh.degree", "degree of the elements", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.mesh.degree; }},
       {"mesh.cells", "cells", "", Quantity::count, 0, all_digits,
@@ -83,8 +88,7 @@ Quantities load_quantities() {
 Quantities contact_quantities() {
   return {
       {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
-       Shown::screen | Shown::curve, all_digits,
-       [](const Result& r) { return r.contact.peak_pressure; }},
+       Shown::screen | Shown::curve, 5, [](const Result& r) { return r.contact.peak_pressure; }},
       {"contact.half_width", "half-width of contact", "", Quantity::angle, Shown::curve, all_digits,
        [](const Result& r) {
          return r.contact.patches.size() < 2 ? r.contact.half_width() : not_known;
@@ -120,7 +124,7 @@ Quantities energy_quantities() {
       {"error.certified_energy_norm", "guaranteed bound of the error in the energy norm", "",
        Quantity::energy_norm, 0, 3, of(&Result::certified, &CertifiedError::energy_norm)},
       {"error.certified_relative", "guaranteed bound of the relative error", "certified",
-       Quantity::number, Shown::table | Shown::orders, 3,
+       Quantity::number, Shown::table | Shown::orders | Shown::upper_bound, 3,
        of(&Result::certified, &CertifiedError::relative)},
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
        0, 3, of(&Result::certified, &CertifiedError::force_data)},
@@ -233,6 +237,10 @@ std::optional<double> ResultQuantity::in_users_units(const Result& result,
   return number ? std::optional(*number * units.of(quantity)) : std::nullopt;
 }
 
+std::string ResultQuantity::text(double number) const {
+  return shown & Shown::upper_bound ? rounded_up(number, digits) : rounded(number, digits);
+}
+
 const std::vector<ResultQuantity>& result_quantities() {
   static const Quantities all = [] {
     Quantities quantities;
@@ -263,6 +271,7 @@ void print_quantities(std::ostream& out) {
         << units.unit(quantity.quantity).name << " |";
     for (const auto& [flag, place] : {std::pair(Shown::screen, "screen"),
                                       {Shown::table, "study.txt"},
+                                      {Shown::varied_table, "study.txt if varied"},
                                       {Shown::orders, "orders"},
                                       {Shown::curve, "curves"}})
       if (quantity.shown & flag)

@@ -85,6 +85,7 @@ void solve_contact_on(const RunOptions& options, const PressureProfile& start,
     if (const auto shortfall = missing_load_text(solution.scene, road.load))
       solution.shortfalls.push_back(*shortfall);
     pressure = std::move(road.pressure);
+    solution.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
   solution.contact = solve_contact(solver, solution.problem, options.contact, pressure);

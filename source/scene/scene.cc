@@ -44,8 +44,10 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
   // The user's number has been rounded, at most by the last digits of a decimal number.
   const double critical = material.wave_speed() / cylinder.outer_radius;
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
-    refuse("Angular velocity", text("it must be at most the critical speed (mu/rho)^(1/2)/b = ",
-                                    critical, ", beyond which the problem is not elliptic"));
+    refuse("Angular velocity",
+           text("it must be at most the critical speed (mu/rho)^(1/2)/b = ", critical,
+                ", beyond which the problem is not elliptic; Material/Shear "
+                "modulus and Density must be in consistent units"));
 }
 
 void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double c) {

@@ -90,31 +90,51 @@ std::string x_label_of(const Study& study) {
   return axis_label(study.plans.front().varied[study.first_key_of_part.back()], study.units());
 }
 
-/// A panel for each quantity that is drawn over the last part of Study/Vary.
+/// The values of a quantity in all runs.
+std::vector<double> values_of(const Study& study, const std::string& quantity) {
+  std::vector<double> values;
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
+    values.push_back(study.value(run, quantity).value_or(missing_point));
+  return values;
+}
+
+std::string label_of(const Study& study, const ResultQuantity& quantity) {
+  return quantity.words + (quantity.symbol.empty() ? "" : ' ' + quantity.symbol) +
+         study.units().in_brackets(quantity.quantity);
+}
+
+/// A panel for each quantity that is drawn over the last part of Study/Vary. The vertical load is
+/// drawn over the deflection if that varies.
 std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
+  const ResultQuantity& deflection = result_quantity("scene.deflection");
+  const bool has_deflections = study.varies(deflection.name);
   std::vector<Panel> panels;
   for (const ResultQuantity& quantity : result_quantities())
-    if (quantity.shown & Shown::curve)
-      panels.push_back({x_label_of(study),
-                        quantity.words + (quantity.symbol.empty() ? "" : ' ' + quantity.symbol) +
-                            study.units().in_brackets(quantity.quantity),
-                        curves_of(study, x, quantity.name)});
+    if (has_deflections && quantity.name == "contact.vertical_load")
+      panels.push_back({label_of(study, deflection), label_of(study, quantity),
+                        curves_of(study, values_of(study, deflection.name), quantity.name)});
+    else if (quantity.shown & Shown::curve)
+      panels.push_back(
+          {x_label_of(study), label_of(study, quantity), curves_of(study, x, quantity.name)});
   return panels;
 }
 
-/// The error over a figure for each family of runs that differ in the fineness of their meshes.
+/// The error over a figure for each family of runs that differ in the fineness of their meshes: the
+/// true one or, if that is not known, its bound.
 /// @param order_factor slopes over expected orders; 0 for none
 Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
                          double order_factor) {
-  Panel panel{x_label, "true relative error in the energy norm", {}, true, true};
+  const ResultQuantity& error = result_quantity(
+      study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
+  Panel panel{x_label, error.words, {}, true, true};
   std::set<double> slopes;
   for (const Family& family : find_families(study)) {
     if (x == "mesh.h_max" && family.is_adaptive)
       continue;
     Curve curve{family.name, {}};
     for (const unsigned int run : family.runs) {
-      if (study.value(run, x) && study.value(run, "error.exact_relative"))
-        curve.points.emplace_back(*study.value(run, x), *study.value(run, "error.exact_relative"));
+      if (study.value(run, x) && study.value(run, error.name))
+        curve.points.emplace_back(*study.value(run, x), *study.value(run, error.name));
       if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
         slopes.insert(order_factor * *order);
     }
@@ -203,7 +223,9 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
             ? ""
             : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
   }
-  if (study.has("error.exact_relative") && find_families(study).size() < study.plans.size())
+  const bool has_errors =
+      study.has("error.exact_relative") || study.has("error.certified_relative");
+  if (has_errors && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
          {std::tuple("study-h", "mesh.h_max",
                      "largest diameter of a cell h" + study.units().in_brackets(Quantity::length),
@@ -211,10 +233,10 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
           {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
-  std::set<std::optional<double>> steps;
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    steps.insert(study.value(run, "iterations.contact"));
-  if (!x.empty() && steps.size() > 1)
+  const bool is_over_method =
+      !x.empty() && !is_of_scene(study.plans.front().varied[study.first_key_of_part.back()]);
+  if (!x.empty() && (is_over_method || study.has("published_steps")) &&
+      study.varies("iterations.contact"))
     add("study", {{x_label_of(study), "contact steps",
                    curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
 }

@@ -30,6 +30,14 @@ std::string with_short_numbers(std::string text) {
   return shortened + text;
 }
 
+/// The size of the letters of a title that leaves room for all of it.
+unsigned int title_size(const std::string& title, unsigned int width) {
+  constexpr unsigned int largest = 12, smallest = 7;
+  constexpr double width_over_size = 0.62; // of a letter, as of most fonts without serifs
+  return std::clamp<unsigned int>(width / (width_over_size * with_short_numbers(title).size()),
+                                  smallest, largest);
+}
+
 /// As inline data, one block for each '-' of a command.
 void write_points(std::ostream& data, const Points& points) {
   for (const auto& [x, y] : points)
@@ -129,9 +137,10 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title "
-         << in_single_quotes(with_short_numbers(title)) << " font ',12' margins "
-         << (is_single ? 0.14 : 0.09) << ",0.95," << (70. + 20 * legend_rows) / height << ','
-         << 1 - 45. / height << " spacing 0.1," << 80. / height << '\n';
+         << in_single_quotes(with_short_numbers(title)) << " font '," << title_size(title, width)
+         << "' margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
+         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
+         << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
@@ -153,9 +162,9 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
-         << in_single_quotes(with_short_numbers(title)) << "\nset xlabel "
-         << in_single_quotes(x_label) << "\nset ylabel " << in_single_quotes(y_label)
-         << "\nset cblabel " << in_single_quotes(value_label)
+         << in_single_quotes(with_short_numbers(title)) << " font '," << title_size(title, 760)
+         << "'\nset xlabel " << in_single_quotes(x_label) << "\nset ylabel "
+         << in_single_quotes(y_label) << "\nset cblabel " << in_single_quotes(value_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1, "
             "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::4::4 with labels boxed "

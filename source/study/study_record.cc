@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace rollwave {
 
@@ -21,6 +22,14 @@ bool Study::has(const std::string& name) const {
     if (value(run, name).value_or(0) > 0)
       return true;
   return false;
+}
+
+bool Study::varies(const std::string& name) const {
+  std::set<double> values;
+  for (unsigned int run = 0; run < runs.size(); ++run)
+    if (const auto known = value(run, name))
+      values.insert(*known);
+  return values.size() > 1;
 }
 
 std::map<std::string, double> values_of(const Result& result, const Units& units) {

@@ -6,6 +6,7 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/text.h"
 #include "rollwave/output/output_directory.h"
+#include "rollwave/output/progress_report.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_solver.h"
 #include "rollwave/study/study_table.h"
@@ -54,7 +55,7 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
   unsigned int n_made = 0;
   auto n_missing = std::count(study.runs.begin(), study.runs.end(), std::nullopt);
   try {
-    StudySolver solver(study.plans, parameters, directory, communicator);
+    StudySolver solver(study.plans, parameters, directory, report_long_runs(out), communicator);
     for (unsigned int run = 0; run < study.runs.size(); ++run) {
       if (study.runs[run])
         continue;

@@ -32,8 +32,10 @@ std::map<std::string, std::string> settings_of(const RunPlan& plan, unsigned int
 } // namespace
 
 StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
-                         const std::filesystem::path& directory, MPI_Comm communicator)
-    : plans(plans), study(study), directory(directory), communicator(communicator) {
+                         const std::filesystem::path& directory, const Progress& progress,
+                         MPI_Comm communicator)
+    : plans(plans), study(study), directory(directory), progress(progress),
+      communicator(communicator) {
   if (study.study.true_errors)
     return;
   std::map<Settings, unsigned int> n_runs;
@@ -83,7 +85,7 @@ Solution StudySolver::solve_timed(const RunPlan& plan) {
   const auto seconds = [this](const Solution& solution) {
     return Utilities::MPI::max(solution.result.statistics.total_seconds(), communicator);
   };
-  std::optional<Solution> fastest = simulate(scene, plan.parameters, communicator);
+  std::optional<Solution> fastest = simulate(scene, plan.parameters, communicator, progress);
   constexpr double short_seconds = 0.2;
   for (int repetition = 0; repetition < 2 && seconds(*fastest) < short_seconds; ++repetition) {
     Solution again = simulate(scene, plan.parameters, communicator);
@@ -105,7 +107,7 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   last_mesh.reset(); // a run that fails leaves nothing
   const auto zone = widest_zone.find(key);
   if (zone == widest_zone.end())
-    return simulate(scene, plan.parameters, communicator);
+    return simulate(scene, plan.parameters, communicator, progress);
   RunStatistics statistics;
   if (!mesh)
     mesh.emplace(scene, plan.parameters, communicator, statistics, zone->second);
@@ -125,6 +127,8 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
     if (const auto& exact = exact_solution(plan, solution->scene)) {
       result.errors = measure_true_errors(solution->space(), solution->displacement, result,
                                           solution->certificate, *exact);
+      if (solution->scene.load)
+        result.errors->exact_distance = exact_distance(plan, solution->scene);
       if (result.errors->is_resolved)
         run.reference = "the semi-analytic solution";
       else
@@ -140,6 +144,13 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
   run.pressure = pressure_of(result, solution->scene.units);
   run.failure = shortfall_text(result);
   run.remarks = result.remarks;
+}
+
+std::optional<double> StudySolver::exact_distance(const RunPlan& plan, const Scene& scene) {
+  const auto [known, is_first] = exact_distances.try_emplace(settings_of(plan, Affects::scene));
+  if (is_first)
+    known->second = find_exact_distance(scene);
+  return known->second;
 }
 
 const std::optional<ExactSolution>& StudySolver::exact_solution(const RunPlan& plan,

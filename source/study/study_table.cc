@@ -49,10 +49,11 @@ dealii::TableHandler make_table(const Study& study,
                            ? std::to_string(*study.plans[run].published_steps)
                            : "-");
     for (const ResultQuantity& quantity : result_quantities())
-      if ((quantity.shown & Shown::table) && study.has(quantity.name)) {
+      if (((quantity.shown & Shown::table) && study.has(quantity.name)) ||
+          ((quantity.shown & Shown::varied_table) && study.varies(quantity.name))) {
         const auto value = study.value(run, quantity.name);
         add(quantity.symbol + units.in_brackets(quantity.quantity),
-            value ? rounded(*value, quantity.digits) : "");
+            value ? quantity.text(*value) : "");
       }
     add("outcome", outcome_of(*study.runs[run]));
   }
@@ -105,12 +106,15 @@ void print_study_notes(std::ostream& out, const Study& study) {
       for (const std::string& remark : made->remarks)
         remarks[run] += (remarks[run].empty() ? "" : "; ") + remark;
     }
-  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up\n"
-         "and without work reused from the run before (column shared of study.csv).\n";
+  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up, exact\n"
+         "solutions, and work reused from the run before (column shared of study.csv).\n";
   if (study.has("error.certified_relative"))
     out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))
     out << "error: true relative error in the energy norm, against the semi-analytic solution.\n";
+  if (study.has("error.exact_distance"))
+    out << "Errors are taken at the computed distance; error.exact_distance is that of the "
+           "distance.\n";
   print_first(out, "Not solved", failures, study.runs.size());
   print_first(out, "Target not reached", shortfalls, study.runs.size());
   print_first(out, "Note", remarks, study.runs.size());

@@ -26,6 +26,10 @@ double to_number(const std::string& text);
 /// @p number with at most this number of digits.
 std::string rounded(double number, int digits);
 
+/// The same, but not below or not above the number, for bounds.
+std::string rounded_up(double number, int digits);
+std::string rounded_down(double number, int digits);
+
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
 

@@ -29,11 +29,19 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
 /// work-conjugate load nor the stiffness.
 bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active);
 
-/// A distance with the load and the nodal pressures there.
+/// One step of the search for the distance.
+struct DistanceStep {
+  double distance;            ///< a length
+  double load;                ///< of the kind of Scene::load
+  unsigned int contact_steps; ///< of the active set method
+};
+
+/// A distance with the load and the nodal pressures there, and the steps that led to it.
 struct RoadPosition {
   double distance;
   double load; ///< of the kind of Scene::load
   dealii::Vector<double> pressure;
+  std::vector<DistanceStep> history = {};
 };
 
 /**

@@ -11,6 +11,9 @@ namespace rollwave {
 /// Prints each phase that takes long when it ends, and a row for each mesh of an adaptive run.
 Progress report_progress(std::ostream& out, const Units& units);
 
+/// Prints a line for a mesh of an adaptive run if there was none for five seconds.
+Progress report_long_runs(std::ostream& out);
+
 } // namespace rollwave
 
 #endif

@@ -1,7 +1,6 @@
 #ifndef ROLLWAVE_OUTPUT_SCREEN_REPORT_H
 #define ROLLWAVE_OUTPUT_SCREEN_REPORT_H
 
-#include "rollwave/exact/exact_solution.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/run/result.h"
 #include "rollwave/scene/scene.h"
@@ -17,11 +16,7 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
 /// Prints the mesh, a line for each contact step, the results in the user's units, and residuals.
 void report_result(std::ostream& out, const Result& result, const Units& units);
 
-/// Prints the numbers of @p result next to the exact ones, in the user's units.
-void report_verification(std::ostream& out, const Scene& scene, const Result& result,
-                         const ExactSolution& exact);
-
-/// Tells where the time went and which files were written.
+/// Prints the seconds of each phase and the written files.
 void report_end(std::ostream& out, const RunStatistics& statistics, const WrittenFiles& written);
 
 /// Lists the written files.

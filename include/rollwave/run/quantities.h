@@ -16,10 +16,12 @@ namespace rollwave {
 /// several of these flags.
 struct Shown {
   enum : unsigned int {
-    screen = 1, ///< the report of a single run
-    table = 2,  ///< study.txt and study.tex
-    orders = 4, ///< the orders of convergence of a study
-    curve = 8   ///< study-curves.svg
+    screen = 1,        ///< the report of a single run
+    table = 2,         ///< study.txt and study.tex
+    orders = 4,        ///< the orders of convergence of a study
+    curve = 8,         ///< study-curves.svg
+    varied_table = 16, ///< study.txt and study.tex, if the runs differ in it
+    upper_bound = 32   ///< rounded up where it is shown
   };
 };
 
@@ -38,6 +40,9 @@ struct ResultQuantity {
   std::function<std::optional<double>(const Result&)> value;
 
   std::optional<double> in_users_units(const Result& result, const Units& units) const;
+
+  /// @p number with its digits.
+  std::string text(double number) const;
 };
 
 /// All numbers of a result, in the order in which they are shown.

@@ -3,6 +3,7 @@
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/contact/contact_patch.h"
+#include "rollwave/contact/load_control.h"
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/scene/units.h"
 
@@ -95,19 +96,21 @@ struct SurfacePoint {
 /// All results of one solved scene, in its units; result_quantities() lists the numbers.
 struct Result {
   MeshFigures mesh;
-  double road_distance; ///< c, a length
-  double deflection;    ///< b - c, a length: how far the axle sinks after the first touch
+  double road_distance;       ///< c, a length
+  double deflection;          ///< b - c, a length: how far the axle sinks after the first touch
+  double relative_deflection; ///< over the thickness b - a
   ContactResultants contact;
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;
-  std::optional<Bounds> load_bounds;     ///< of the work-conjugate load G
-  std::optional<Bounds> distance_bounds; ///< where that load is given
-  std::optional<TrueErrors> errors;      ///< where a comparison was asked for
-  std::vector<CycleFigures> cycles;      ///< one for each mesh
-  std::vector<ContactStep> history;      ///< on the last mesh
-  double rho;                            ///< Uzawa's step length; 0 for the active set method
-  std::vector<std::string> remarks;      ///< notes for the reader
+  std::optional<Bounds> load_bounds;          ///< of the work-conjugate load G
+  std::optional<Bounds> distance_bounds;      ///< where that load is given
+  std::optional<TrueErrors> errors;           ///< where a comparison was asked for
+  std::vector<CycleFigures> cycles;           ///< one for each mesh
+  std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load is given
+  std::vector<ContactStep> history;           ///< on the last mesh
+  double rho;                                 ///< Uzawa's step length; 0 for the active set method
+  std::vector<std::string> remarks;           ///< notes for the reader
   /// Targets that were not reached, with the keys to change.
   std::vector<std::string> shortfalls;
   bool is_interrupted = false; ///< by the user: the shortfalls say after what

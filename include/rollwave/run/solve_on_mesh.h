@@ -43,7 +43,8 @@ struct MeshSolution {
   ContactSolution contact = {};
   FieldVector displacement = {}; ///< u_h
   ContactResultants resultants = {};
-  Energy energy = {}; ///< of u_h
+  std::vector<DistanceStep> distance_history = {}; ///< where a load is given
+  Energy energy = {};                              ///< of u_h
   Residuals residuals = {};
   std::vector<std::string> remarks = {};    ///< anything unusual that the user should know
   std::vector<std::string> shortfalls = {}; ///< targets that were not reached, with the keys to
@@ -57,7 +58,7 @@ PressureProfile pressure_profile(const MeshSolution& solution);
 /// @param candidates the contact nodes of all scenes on the space
 /// @param cache that of the same space
 /// @throws BadInput where no node lies in the zone or the force is not finite, NotSolved when a
-/// solver fails or a number is beyond what numbers can hold.
+/// solver fails or a number overflows double precision.
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
                            MeshCache& cache, RunStatistics& statistics);

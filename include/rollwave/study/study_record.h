@@ -47,6 +47,9 @@ struct Study {
 
   /// True if any run has a value that is greater than 0.
   bool has(const std::string& name) const;
+
+  /// True if two runs have different values.
+  bool varies(const std::string& name) const;
 };
 
 /// The known quantities of a result by their names, in the user's units.

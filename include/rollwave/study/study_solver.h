@@ -21,8 +21,10 @@ namespace rollwave {
 class StudySolver {
 public:
   /// @param study its parameters, whose files of each run go to directories in @p directory
+  /// @param progress of each run
   StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
-              const std::filesystem::path& directory, MPI_Comm communicator);
+              const std::filesystem::path& directory, const Progress& progress,
+              MPI_Comm communicator);
 
   /// Solves the run of this number, from 0 on; if that fails the reason is in the outcome.
   /// @throws Interrupted also when there is a result that lacks something; NotWritten
@@ -35,16 +37,19 @@ private:
   Solution solve_timed(const RunPlan& plan);
   Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
   const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
+  std::optional<double> exact_distance(const RunPlan& plan, const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
   const std::filesystem::path directory;
+  const Progress progress;
   const MPI_Comm communicator;
   std::map<Settings, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
   std::optional<Settings> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;
   /// By the settings of the scene and the distance, which a mesh finds where a load is given.
   std::map<std::pair<Settings, double>, std::optional<ExactSolution>> exact_solutions;
+  std::map<Settings, std::optional<double>> exact_distances; ///< by the settings of the scene
 };
 
 } // namespace rollwave

@@ -1,0 +1,18 @@
+#ifndef ROLLWAVE_OUTPUT_VERIFICATION_REPORT_H
+#define ROLLWAVE_OUTPUT_VERIFICATION_REPORT_H
+
+#include "rollwave/exact/exact_solution.h"
+#include "rollwave/run/result.h"
+#include "rollwave/scene/scene.h"
+
+#include <iosfwd>
+
+namespace rollwave {
+
+/// Prints the numbers of @p result next to the exact ones, in the user's units.
+void report_verification(std::ostream& out, const Scene& scene, const Result& result,
+                         const ExactSolution& exact);
+
+} // namespace rollwave
+
+#endif

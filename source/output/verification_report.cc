@@ -1,0 +1,80 @@
+#include "rollwave/output/verification_report.h"
+
+#include "rollwave/base/text.h"
+#include "rollwave/run/quantities.h"
+#include "rollwave/scene/units.h"
+
+#include <deal.II/base/table_handler.h>
+
+#include <ostream>
+#include <sstream>
+#include <string>
+
+namespace rollwave {
+
+using namespace dealii;
+
+namespace {
+
+/// The errors against the exact solution in norms.
+void report_errors(std::ostream& out, const Result& result, const Units& units) {
+  const auto print = [&](const std::string& name, const std::string& words) {
+    const ResultQuantity& quantity = result_quantity(name);
+    const auto value = quantity.in_users_units(result, units);
+    out << words
+        << (value ? rounded(*value, quantity.digits) + units.after(quantity.quantity)
+                  : "below the accuracy of the reference solution");
+  };
+  print("error.exact_energy_norm", "Error in the energy norm ");
+  if (result.errors->is_resolved)
+    print("error.exact_relative", ", relative ");
+  print("error.exact_l2_norm", "; in L2 ");
+  print("error.exact_pressure", ", of the pressure in the discrete L2 norm ");
+  out << '\n';
+}
+
+} // namespace
+
+void report_verification(std::ostream& out, const Scene& scene, const Result& result,
+                         const ExactSolution& exact) {
+  const Units& units = scene.units;
+  TableHandler table;
+  const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
+                       double accuracy) {
+    const double unit = units.of(quantity);
+    table.add_value("quantity", name + units.in_brackets(quantity));
+    table.add_value("computed", rounded(ours * unit, 12));
+    table.add_value("exact", rounded(theirs * unit, 12));
+    table.add_value("difference", rounded((ours - theirs) * unit, 3));
+    table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
+    table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
+  };
+  add("force F", Quantity::force, result.contact.force, exact.force, exact.force_accuracy);
+  add("vertical load", Quantity::force, result.contact.vertical_load, exact.vertical_load,
+      exact.force_accuracy);
+  add("work-conjugate load G", Quantity::force, result.contact.work_conjugate_load,
+      exact.work_conjugate_load, exact.force_accuracy);
+  add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
+  add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
+  add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,
+      exact.half_width_accuracy);
+  add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
+  if (result.errors && result.errors->exact_distance)
+    add("distance c for the load", Quantity::length, result.road_distance,
+        *result.errors->exact_distance, 1e-10);
+  out << "\nVerification against the semi-analytic solution";
+  if (scene.load)
+    out << " at the computed distance " << rounded(result.road_distance * units.length, 9)
+        << units.after(Quantity::length);
+  out << '\n';
+  std::ostringstream text; // where deal.II cannot write, it throws
+  table.write_text(text, TableHandler::table_with_headers);
+  out << text.str();
+  if (!exact.ends_resolved)
+    out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
+           "are.\n";
+  if (result.errors)
+    report_errors(out, result, units);
+}
+
+} // namespace rollwave
