@@ -7,6 +7,7 @@ All names take some nine minutes on two quiet cores.
 """
 import argparse
 import csv
+import decimal
 import json
 import math
 import os
@@ -74,8 +75,18 @@ def shown(value):
     return str(int(value)) if abs(value) < 1e9 and value == int(value) else f'{value:.3g}'
 
 
+def rounded_up(value):
+    """A bound with three digits."""
+    if not isinstance(value, float) or not math.isfinite(value):
+        return value
+    return float(decimal.Context(prec=3, rounding=decimal.ROUND_CEILING).create_decimal(value))
+
+
 def table(titles, rows):
-    lines = [titles, ['---'] * len(titles), *[[shown(cell) for cell in row] for row in rows]]
+    lines = [titles, ['---'] * len(titles)]
+    for row in rows:
+        lines.append([shown(rounded_up(cell) if title == 'certified' else cell)
+                      for title, cell in zip(titles, row)])
     return ''.join('| ' + ' | '.join(line) + ' |\n' for line in lines)
 
 

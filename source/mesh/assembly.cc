@@ -7,7 +7,9 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace rollwave {
@@ -45,35 +47,55 @@ private:
   std::map<std::pair<unsigned int, double>, FEValues<2>> values;
 };
 
+/// @p length to twelve digits: the same for lengths that differ by round-off.
+double without_round_off(double length) {
+  constexpr int bits = 40;
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
+/// a(phi_j, phi_i) on one cell.
+FullMatrix<double> stiffness_of_cell(const FEValues<2>& values, const Scene& scene) {
+  const unsigned int n = values.dofs_per_cell;
+  FullMatrix<double> matrix(n);
+  for (const unsigned int q : values.quadrature_point_indices()) {
+    const double r = values.quadrature_point(q)[0], alpha = scene.alpha(r);
+    for (unsigned int i = 0; i < n; ++i) {
+      const Tensor<1, 2>& phi = values.shape_grad(i, q);
+      Tensor<1, 2> flux; // r (d_r phi_i, alpha d_z phi_i) dr dz
+      flux[0] = r * phi[0] * values.JxW(q);
+      flux[1] = r * alpha * phi[1] * values.JxW(q);
+      for (unsigned int j = 0; j <= i; ++j)
+        matrix(i, j) += flux * values.shape_grad(j, q);
+    }
+  }
+  for (unsigned int i = 0; i < n; ++i) // it is symmetric
+    for (unsigned int j = i + 1; j < n; ++j)
+      matrix(i, j) = matrix(j, i);
+  return matrix;
+}
+
 } // namespace
 
 CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene) {
   return [&space, &scene](const AddCellMatrix& add) {
-    const unsigned int n = space.dof_handler().get_fe().n_dofs_per_cell();
     RulesOfCells rules(space);
-    FullMatrix<double> cell_matrix(n);
-    std::vector<types::global_dof_index> dofs(n);
+    // Cells of one radial interval and one length along z have the same matrix, made once.
+    std::map<std::tuple<double, double, double>, FullMatrix<double>> known;
+    constexpr std::size_t most_known = 1000; // 52 MB at degree 8
+    std::vector<types::global_dof_index> dofs(space.dof_handler().get_fe().n_dofs_per_cell());
     for (const auto& cell : space.dof_handler().active_cell_iterators()) {
       if (!cell->is_locally_owned())
         continue;
-      const FEValues<2>& values = rules.reinit(cell);
-      cell_matrix = 0;
-      for (const unsigned int q : values.quadrature_point_indices()) {
-        const double r = values.quadrature_point(q)[0], alpha = scene.alpha(r);
-        for (unsigned int i = 0; i < n; ++i) {
-          const Tensor<1, 2>& phi = values.shape_grad(i, q);
-          Tensor<1, 2> flux; // r (d_r phi_i, alpha d_z phi_i) dr dz
-          flux[0] = r * phi[0] * values.JxW(q);
-          flux[1] = r * alpha * phi[1] * values.JxW(q);
-          for (unsigned int j = 0; j <= i; ++j)
-            cell_matrix(i, j) += flux * values.shape_grad(j, q);
-        }
-      }
-      for (unsigned int i = 0; i < n; ++i) // it is symmetric
-        for (unsigned int j = i + 1; j < n; ++j)
-          cell_matrix(i, j) = cell_matrix(j, i);
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      const auto shape = std::tuple(low[0], high[0], without_round_off(high[1] - low[1]));
+      if (known.size() == most_known && known.count(shape) == 0)
+        known.clear();
+      if (known.count(shape) == 0)
+        known[shape] = stiffness_of_cell(rules.reinit(cell), scene);
       cell->get_dof_indices(dofs);
-      add(dofs, cell_matrix);
+      add(dofs, known[shape]);
     }
   };
 }

@@ -142,6 +142,7 @@ void report_orders(std::ostream& out, const Study& study) {
     if (meshes.size() < 2 || !has_errors)
       continue;
     out << "\nOrders in h ~ unknowns^(-1/2)" << (family.name.empty() ? "" : ", ") << family.name
+        << (meshes.size() < family.runs.size() ? ", only meshes at least 1.5 times larger" : "")
         << '\n';
     print_errors(out, study, meshes);
     if (meshes.size() > 2)
