@@ -180,17 +180,14 @@ TEST_F(RepeatedStudy, SaysWhatIsShared) {
 
 // The distance for a load is compared with the exact one, the other errors with those at its own.
 TEST_F(RepeatedStudy, HasTheErrorOfTheDistanceForALoad) {
-  const std::vector<std::string> settings = {
-      "Road/Load=0.3", "Study/True errors=true",
-      "Study/Vary=Mesh/Radial cells & Mesh/Angular cells = 3 & 40 | 6 & 80"};
+  const std::vector<std::string> settings = {"Road/Load=0.3", "Study/True errors=true",
+                                             "Study/Vary=Mesh/Degree = 2"};
   run(settings);
   Study study = planned(settings);
   read_csv(read("study.csv"), study);
-  const double coarse = study.value(0, "error.exact_distance").value(),
-               fine = study.value(1, "error.exact_distance").value();
-  EXPECT_GT(fine, 0);
-  EXPECT_LT(fine, coarse);
-  EXPECT_LT(coarse, 1e-3);
+  const double error = study.value(0, "error.exact_distance").value();
+  EXPECT_GT(error, 0);
+  EXPECT_LT(error, 1e-2);
 }
 
 /// The orders of a study with true errors, where the error of a run is the product of @p factor

@@ -83,7 +83,7 @@ std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameter
   const fs::path directory = parameters.output.directory;
   std::vector<std::string> removed;
   if (read_file(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
-      (is_study && is_of_same_run(parameters))) // which goes on
+      (is_study && is_of_same_run(parameters))) // a study that continues
     return removed;
   remove_files(
       directory, parameters,

@@ -177,8 +177,7 @@ Panel profiles(const Study& study, const std::vector<double>& x) {
   return panel;
 }
 
-/// The vertical load over two keys; nullopt unless these alone vary, are of cylinder and road, and
-/// numbers.
+/// The vertical load over two keys of the scene that have numbers; nullopt for other studies.
 std::optional<Picture> map_of_load(const Study& study) {
   if (study.first_key_of_part.size() != 2 || !study.plans.front().scene.empty())
     return {};

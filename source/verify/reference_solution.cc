@@ -3,13 +3,11 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/contact_problem.h"
 
-#include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 namespace rollwave {
 
@@ -41,24 +39,30 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
 }
 
 std::optional<double> find_exact_distance(const Scene& scene) {
-  const auto excess = [&](double c) {
+  const auto excess = [&](double c) -> std::optional<double> {
     const auto exact = find_exact_solution(with_distance(scene, c));
     if (!exact)
-      throw NotSolved("no exact solution is known at the distance " + std::to_string(c));
+      return {};
     const Loads loads = {exact->force, exact->vertical_load, exact->work_conjugate_load};
     return loads.of(scene.load->kind) - scene.load->value;
   };
-  constexpr double first_step = 1e-4;
-  constexpr int bits = 37; // 1e-11
-  std::uintmax_t most_evaluations = 60;
-  try {
-    const auto [near, far] = boost::math::tools::bracket_and_solve_root(
-        excess, scene.road.distance, 1 + first_step, false,
-        boost::math::tools::eps_tolerance<double>(bits), most_evaluations);
-    return (near + far) / 2;
-  } catch (const std::exception&) {
-    return {};
+  // The secant method: that of the mesh is near, and each exact solution takes about a second.
+  constexpr double first_step = 1e-6, tolerance = 1e-11;
+  constexpr int most_steps = 20;
+  double before = scene.road.distance, c = before * (1 + first_step);
+  std::optional<double> excess_before = excess(before);
+  for (int step = 0; step < most_steps && excess_before; ++step) {
+    const std::optional<double> excess_here = excess(c);
+    if (!excess_here)
+      return {};
+    const double next = c - *excess_here * (c - before) / (*excess_here - *excess_before);
+    if (std::abs(next - c) <= tolerance * c)
+      return next;
+    before = c;
+    excess_before = excess_here;
+    c = next;
   }
+  return {};
 }
 
 } // namespace rollwave

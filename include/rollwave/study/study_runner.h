@@ -9,7 +9,7 @@
 
 namespace rollwave {
 
-/// A study none of whose runs has been made. @throws BadInput as plan_runs()
+/// The runs of a study, not yet solved. @throws BadInput as plan_runs()
 Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_SELF);
 
 /**

@@ -47,7 +47,7 @@ private:
   std::map<Settings, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
   std::optional<Settings> last_mesh; ///< that of solution, where it is shared
   std::optional<Solution> solution;
-  /// By the settings of the scene and the distance, which a mesh finds where a load is given.
+  /// By the settings of the scene and the distance, which depends on the mesh if a load is given.
   std::map<std::pair<Settings, double>, std::optional<ExactSolution>> exact_solutions;
   std::map<Settings, std::optional<double>> exact_distances; ///< by the settings of the scene
 };

@@ -15,8 +15,8 @@ namespace rollwave {
 std::optional<ExactSolution> find_exact_solution(const Scene& scene,
                                                  std::string* why_none = nullptr);
 
-/// The distance at which the exact solution has the load of Scene::load, to 1e-11 of it, sought
-/// around that of @p scene; nullopt where no exact solution is known.
+/// The distance at which the exact solution has the load of Scene::load, to 1e-11, sought from
+/// that of @p scene on; nullopt where no exact solution is known.
 std::optional<double> find_exact_distance(const Scene& scene);
 
 } // namespace rollwave
