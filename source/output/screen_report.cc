@@ -7,6 +7,7 @@
 
 #include <deal.II/base/table_handler.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
@@ -100,8 +101,12 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
       << (std::isfinite(certified.relative) ? "relative " + rounded_up(certified.relative, 3)
                                             : std::string("no relative bound"))
       << '\n';
-  if (result.energy.value < certified.lower_bound || result.energy.value > certified.upper_bound)
-    out << "           J(u_h) lies outside: the bounds are those of the exact solution u\n";
+  const double outside = std::max(certified.lower_bound - result.energy.value,
+                                  result.energy.value - certified.upper_bound);
+  if (outside > 0)
+    out << "           J(u_h) is " << rounded(outside * units.of(Quantity::energy), 2)
+        << units.after(Quantity::energy)
+        << " outside: the bounds are those of the exact solution\n";
   if (certified.sampled_width > 0)
     out << "           features of the force smaller than "
         << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
@@ -117,17 +122,16 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
 }
 
 void report_patches(std::ostream& out, const ContactResultants& contact, const Units& units) {
-  out << std::setprecision(9);
   if (contact.patches.empty())
     out << "  no contact\n";
   if (contact.patches.size() > 1)
     out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches)
-    out << "  contact from " << patch.begin << " to " << patch.end << " rad, half-width "
-        << (patch.end - patch.begin) / 2 << " rad,\n    on "
-        << patch.length * units.of(Quantity::length) << units.after(Quantity::length)
-        << " of the road, force " << patch.force * units.of(Quantity::force)
+    out << "  contact from " << rounded(patch.begin, 6) << " to " << rounded(patch.end, 6)
+        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad,\n    on "
+        << rounded(patch.length * units.of(Quantity::length), 5) << units.after(Quantity::length)
+        << " of the road, force " << rounded(patch.force * units.of(Quantity::force), 9)
         << units.after(Quantity::force) << '\n';
 }
 

@@ -59,8 +59,9 @@ Quantities mesh_quantities() {
 
 Quantities load_quantities() {
   return {
-      {"contact.vertical_load", "vertical load", "", Quantity::force, Shown::screen | Shown::curve,
-       all_digits, [](const Result& r) { return r.contact.vertical_load; }},
+      {"contact.vertical_load", "vertical load", "", Quantity::force,
+       Shown::screen | Shown::curve | Shown::varied_table, all_digits,
+       [](const Result& r) { return r.contact.vertical_load; }},
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.force; }},

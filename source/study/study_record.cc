@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <limits>
 
 namespace rollwave {
 
@@ -25,11 +25,14 @@ bool Study::has(const std::string& name) const {
 }
 
 bool Study::varies(const std::string& name) const {
-  std::set<double> values;
+  double least = std::numeric_limits<double>::infinity(), largest = -least;
   for (unsigned int run = 0; run < runs.size(); ++run)
-    if (const auto known = value(run, name))
-      values.insert(*known);
-  return values.size() > 1;
+    if (const auto known = value(run, name)) {
+      least = std::min(least, *known);
+      largest = std::max(largest, *known);
+    }
+  constexpr double tolerance = 1e-8; // a given load is met to 1e-9
+  return largest - least > tolerance * std::max(std::abs(least), std::abs(largest));
 }
 
 std::map<std::string, double> values_of(const Result& result, const Units& units) {

@@ -52,7 +52,8 @@ dealii::TableHandler make_table(const Study& study,
       if (((quantity.shown & Shown::table) && study.has(quantity.name)) ||
           ((quantity.shown & Shown::varied_table) && study.varies(quantity.name))) {
         const auto value = study.value(run, quantity.name);
-        add(quantity.symbol + units.in_brackets(quantity.quantity),
+        add((quantity.symbol.empty() ? quantity.words : quantity.symbol) +
+                units.in_brackets(quantity.quantity),
             value ? quantity.text(*value) : "");
       }
     add("outcome", outcome_of(*study.runs[run]));

@@ -48,7 +48,7 @@ struct Study {
   /// True if any run has a value that is greater than 0.
   bool has(const std::string& name) const;
 
-  /// True if two runs have different values.
+  /// True if the values of two runs differ by more than 1e-8 of the largest.
   bool varies(const std::string& name) const;
 };
 
