@@ -72,7 +72,8 @@ void pin(const ContactProblem& problem, ContactSolution& solution) {
 } // namespace
 
 ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,
-                           unsigned int most_steps, const Vector<double>& start) {
+                           unsigned int most_steps, const Vector<double>& start,
+                           const ContactObserver& step_ended) {
   ContactSolution solution;
   solution.active.assign(problem.size(), false);
   for (unsigned int i = 0; i < start.size(); ++i)
@@ -99,6 +100,8 @@ ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& pr
       solution.history.pop_back();
       continue;
     }
+    if (step_ended)
+      step_ended(solution.history);
     if (is_last)
       return solution;
     if (solution.history.size() >= most_steps)

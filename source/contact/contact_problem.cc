@@ -55,10 +55,11 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
 }
 
 ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
-                              const ContactOptions& options, const dealii::Vector<double>& start) {
+                              const ContactOptions& options, const dealii::Vector<double>& start,
+                              const ContactObserver& step_ended) {
   if (options.method == ContactMethod::uzawa)
-    return uzawa(solver, problem, options, start);
-  return active_set(solver, problem, options.most_steps, start);
+    return uzawa(solver, problem, options, start, step_ended);
+  return active_set(solver, problem, options.most_steps, start, step_ended);
 }
 
 } // namespace rollwave

@@ -99,7 +99,8 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
 }
 
 ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
-                      const ContactOptions& options, const Vector<double>& start) {
+                      const ContactOptions& options, const Vector<double>& start,
+                      const ContactObserver& step_ended) {
   const unsigned int n = problem.size();
   const std::vector<bool> none(n, false);
   const double rho = options.rho
@@ -136,6 +137,8 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
+    if (step_ended)
+      step_ended(solution.history);
     // A scene without contact is solved when the first projection leaves p at zero.
     if (measured <= options.tolerance * size) {
       solution.gap_accuracy = std::max(options.tolerance * size, measured);

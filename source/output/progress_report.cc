@@ -7,15 +7,26 @@
 #include <iomanip>
 #include <memory>
 #include <ostream>
+#include <vector>
 
 namespace rollwave {
 
 Progress report_progress(std::ostream& out, const Units& units) {
   Progress progress;
-  progress.phase_ended = [&out](const std::string& phase, double seconds) {
-    constexpr double long_seconds = 1;
-    if (seconds > long_seconds)
-      out << "  " << phase << ", " << rounded(seconds, 3) << " s\n" << std::flush;
+  constexpr double long_seconds = 1;
+  const auto since_last_line = std::make_shared<dealii::Timer>();
+  progress.phase_ended = [&out, since_last_line](const std::string& phase, double seconds) {
+    if (seconds > long_seconds) {
+      out << "  " << phase << ", " << rounded(seconds, 3) << " s" << std::endl;
+      since_last_line->restart();
+    }
+  };
+  progress.contact_step_ended = [&out, since_last_line](const std::vector<ContactStep>& history) {
+    if (since_last_line->wall_time() > long_seconds) {
+      out << "  contact step " << history.size() << ", " << history.back().active << " active, "
+          << history.back().changed << " changed" << std::endl;
+      since_last_line->restart();
+    }
   };
   progress.mesh_solved = [&out, units](unsigned int number, const CycleFigures& mesh) {
     if (number == 1)

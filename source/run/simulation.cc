@@ -170,8 +170,8 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
                           PressureProfile pressure, RunStatistics statistics,
                           const Progress& progress, std::vector<CycleFigures>& cycles) {
   for (;;) {
-    MeshSolution solution =
-        solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache, statistics);
+    MeshSolution solution = solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache,
+                                          statistics, progress.contact_step_ended);
     if (!mesh.is_shared && !options.certificate.load_bounds)
       mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
     std::optional<Certificate> certificate = certify_solution(options, mesh, solution, statistics);

@@ -75,7 +75,8 @@ void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache,
 
 /// Finds the distance if a load is given. Then solves the contact problem.
 void solve_contact_on(const RunOptions& options, const PressureProfile& start,
-                      ContactLinearSolver& solver, MeshSolution& solution) {
+                      ContactLinearSolver& solver, const ContactObserver& step_ended,
+                      MeshSolution& solution) {
   const ContactBoundary& boundary = solution.boundary;
   Vector<double> pressure = start.at(boundary.contact_nodes());
   if (solution.scene.load) {
@@ -88,7 +89,7 @@ void solve_contact_on(const RunOptions& options, const PressureProfile& start,
     solution.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
-  solution.contact = solve_contact(solver, solution.problem, options.contact, pressure);
+  solution.contact = solve_contact(solver, solution.problem, options.contact, pressure, step_ended);
   if (!solution.contact.remark.empty())
     solution.remarks.push_back(solution.contact.remark);
 }
@@ -147,7 +148,8 @@ PressureProfile pressure_profile(const MeshSolution& solution) {
 
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& statistics) {
+                           MeshCache& cache, RunStatistics& statistics,
+                           const ContactObserver& step_ended) {
   const RingSpace& space = candidates.space();
   MeshSolution solution = {scene, ContactBoundary(space, scene.zone())};
   const ContactBoundary& boundary = solution.boundary;
@@ -162,7 +164,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
     solution.remarks.push_back(cache.stiffness.remark);
   {
     const RunStatistics::Phase phase(statistics, "contact");
-    solve_contact_on(options, start, solver, solution);
+    solve_contact_on(options, start, solver, step_ended, solution);
   }
   solution.displacement = solver.displacement_field(solution.contact.state);
   Loads stiffness;

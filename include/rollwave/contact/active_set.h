@@ -22,7 +22,8 @@ namespace rollwave {
  * @throws NotSolved after @p most_steps steps.
  */
 ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,
-                           unsigned int most_steps, const dealii::Vector<double>& start = {});
+                           unsigned int most_steps, const dealii::Vector<double>& start = {},
+                           const ContactObserver& step_ended = {});
 
 } // namespace rollwave
 

@@ -5,6 +5,7 @@
 #include "rollwave/scene/scene.h"
 #include "rollwave/solver/contact_linear_solver.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,6 +93,9 @@ struct ContactStep {
   double residual;
 };
 
+/// Called after each step of a contact iteration with all steps so far.
+using ContactObserver = std::function<void(const std::vector<ContactStep>& history)>;
+
 struct ContactSolution {
   ContactState state;
   std::vector<bool> active;
@@ -105,7 +109,8 @@ struct ContactSolution {
 /// it has no entries). @throws NotSolved as the methods do.
 ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
                               const ContactOptions& options,
-                              const dealii::Vector<double>& start = {});
+                              const dealii::Vector<double>& start = {},
+                              const ContactObserver& step_ended = {});
 
 } // namespace rollwave
 

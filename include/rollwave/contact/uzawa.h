@@ -23,7 +23,8 @@ namespace rollwave {
  *         options.most_steps steps.
  */
 ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
-                      const ContactOptions& options, const dealii::Vector<double>& start = {});
+                      const ContactOptions& options, const dealii::Vector<double>& start = {},
+                      const ContactObserver& step_ended = {});
 
 /**
  * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes

@@ -61,7 +61,8 @@ PressureProfile pressure_profile(const MeshSolution& solution);
 /// solver fails or a number overflows double precision.
 MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& statistics);
+                           MeshCache& cache, RunStatistics& statistics,
+                           const ContactObserver& step_ended = {});
 
 } // namespace rollwave
 
