@@ -30,7 +30,7 @@ install_missing() {
       missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return
-  echo "Installing: ${missing[*]}"
+  echo "Installing: ${missing[*]}" >&2
   local as_root=()
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
   "${as_root[@]}" apt-get update -qq
@@ -41,7 +41,7 @@ install_missing() {
 # build TARGET [DIRECTORY] [OPTIONS of cmake]
 build() {
   local target=$1 directory=${2:-build}
-  echo "Building (two or three minutes the first time) ..."
+  echo "Building (two or three minutes the first time) ..." >&2
   # In one piece for each core, which read deal.II's headers once: a quarter of the time. With tests
   # or without, the objects of the program are the same and stay.
   local sources=(source/*/*.cc) cores

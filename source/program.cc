@@ -65,13 +65,10 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene.units));
   report_result(out, solution.result, scene.units);
-  const auto& directory = parameters.output.directory;
-  const WrittenFiles written = write_results(directory, parameters, solution);
-  if (verifies) {
+  if (verifies)
     attempt([&] { verify(solution, out); }, "the result could not be verified",
             "leave out --verify", communicator, solution.result.shortfalls);
-    write_summary(directory, parameters, solution);
-  }
+  const WrittenFiles written = write_results(parameters.output.directory, parameters, solution);
   report_end(out, solution.result.statistics, written);
   if (!solution.result.shortfalls.empty())
     throw TargetNotReached(shortfall_text(solution.result));

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 using namespace rollwave;
 using dealii::FullMatrix;

@@ -13,7 +13,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 #include <random>
 #include <vector>
 

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_TESTS_DRAW_H
-#define ROLLWAVE_TESTS_DRAW_H
+#pragma once
 
 #include <cmath>
 #include <cstdlib>
@@ -34,5 +33,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

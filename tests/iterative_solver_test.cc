@@ -2,8 +2,6 @@
 #include "rollwave/solver/iterative_solver.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/base/mpi_processes.h"
-#include "rollwave/contact/active_set.h"
 #include "rollwave/mesh/assembly.h"
 #include "rollwave/run/measure.h"
 #include "rollwave/run/simulation.h"
@@ -16,7 +14,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <random>

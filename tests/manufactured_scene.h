@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MANUFACTURED_SCENE_H
-#define ROLLWAVE_MANUFACTURED_SCENE_H
+#pragma once
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/scene/scene.h"
@@ -28,5 +27,3 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
                                     unsigned int n_modes);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_TESTS_OWN_PATH_H
-#define ROLLWAVE_TESTS_OWN_PATH_H
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -18,5 +17,3 @@ inline std::filesystem::path own_path() {
 }
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_TESTS_PROGRAM_H
-#define ROLLWAVE_TESTS_PROGRAM_H
+#pragma once
 
 #include "own_path.h"
 
@@ -73,5 +72,3 @@ protected:
   const std::filesystem::path directory;
   std::string scene; ///< its parameter file, quoted for the shell
 };
-
-#endif

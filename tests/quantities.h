@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_TESTS_QUANTITIES_H
-#define ROLLWAVE_TESTS_QUANTITIES_H
+#pragma once
 
 #include <nlohmann/json.hpp>
 
@@ -27,5 +26,3 @@ double tolerance_of_solvers(const std::string& path, double expected);
 double tolerance_of_uzawa(const std::string& path, double expected);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_TEST_SCENES_H
-#define ROLLWAVE_TEST_SCENES_H
+#pragma once
 
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/parameters/parameters.h"
@@ -63,5 +62,3 @@ FieldVector random_load(const RingSpace& space,
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PROGRAM_H
-#define ROLLWAVE_PROGRAM_H
+#pragma once
 
 #include "rollwave/parameters/command_line.h"
 
@@ -15,5 +14,3 @@ namespace rollwave {
 void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& out);
 
 } // namespace rollwave
-
-#endif

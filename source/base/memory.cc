@@ -7,7 +7,6 @@
 #include <deal.II/base/utilities.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <limits>

@@ -1,6 +1,7 @@
 #include "rollwave/base/text.h"
 
 #include <boost/algorithm/string.hpp>
+#include <deal.II/base/table_handler.h>
 
 #include <algorithm>
 #include <cctype>
@@ -71,6 +72,12 @@ std::string rounded_down(double number, int digits) {
 std::string shortest_text(double number) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof(text), number).ptr};
+}
+
+std::string table_text(const dealii::TableHandler& table) {
+  std::ostringstream text;
+  table.write_text(text, dealii::TableHandler::table_with_headers);
+  return text.str();
 }
 
 } // namespace rollwave

@@ -3,8 +3,6 @@
 #include "rollwave/base/errors.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 namespace rollwave {

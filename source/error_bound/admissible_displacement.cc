@@ -6,7 +6,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace rollwave {
 

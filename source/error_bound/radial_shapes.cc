@@ -1,11 +1,11 @@
 #include "rollwave/error_bound/radial_shapes.h"
 
+#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace rollwave {
 

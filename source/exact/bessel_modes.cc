@@ -2,7 +2,6 @@
 
 #include "rollwave/scene/uniform_force.h"
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <boost/math/special_functions/legendre.hpp>

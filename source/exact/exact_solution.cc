@@ -13,8 +13,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <optional>
 
 namespace rollwave {
 

@@ -88,14 +88,15 @@ CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene) {
     for (const auto& cell : space.dof_handler().active_cell_iterators()) {
       if (!cell->is_locally_owned())
         continue;
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      const auto shape = std::tuple(low[0], high[0], without_round_off(high[1] - low[1]));
-      if (known.size() == most_known && known.count(shape) == 0)
+      if (known.size() > most_known)
         known.clear();
-      if (known.count(shape) == 0)
-        known[shape] = stiffness_of_cell(rules.reinit(cell), scene);
+      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+      const auto [entry, is_new] =
+          known.try_emplace({low[0], high[0], without_round_off(high[1] - low[1])});
+      if (is_new)
+        entry->second = stiffness_of_cell(rules.reinit(cell), scene);
       cell->get_dof_indices(dofs);
-      add(dofs, known[shape]);
+      add(dofs, entry->second);
     }
   };
 }

@@ -74,26 +74,18 @@ void write_field(const std::filesystem::path& directory, const Parameters& param
   }
 }
 
-/// summary.json with the work and the memory so far. Called on all processes.
-std::string summary_of(const Parameters& parameters, Solution& solution) {
-  solution.result.peak_memory_mib =
-      Utilities::MPI::max(peak_memory_mib(), solution.space().communicator());
-  return summary_json(solution.scene, parameters, solution.result);
-}
-
 } // namespace
 
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution) {
   const Scene& scene = solution.scene;
-  const Result& result = solution.result;
-  WrittenFiles written;
-  RunStatistics& statistics = solution.result.statistics;
+  Result& result = solution.result;
   const MPI_Comm communicator = solution.space().communicator();
   const bool is_first = process_number(communicator) == 0;
+  WrittenFiles written;
   std::exception_ptr failure;
   {
-    const RunStatistics::Phase phase(statistics, "output");
+    const RunStatistics::Phase phase(result.statistics, "output");
     if (is_first)
       write_parameters(directory, parameters, written);
     if (parameters.wants(OutputFile::contact) && is_first)
@@ -102,31 +94,22 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
       written.write(directory / "surface.vtu", surface_vtu(scene, result));
       written.write(directory / "road.vtu", road_vtu(scene));
     }
+    if (parameters.wants(OutputFile::plot) && is_first)
+      draw(plot_scene(scene, result), directory, "scene", written);
     if (parameters.wants(OutputFile::solution))
       try {
         write_field(directory, parameters, solution, written);
       } catch (const NotWritten&) {
-        // The largest file by far: where it has no room, the others may.
-        failure = std::current_exception();
+        failure = std::current_exception(); // the largest file by far: the summary may have room
       }
-    if (parameters.wants(OutputFile::plot) && is_first)
-      draw(plot_scene(scene, result), directory, "scene", written);
   }
-  statistics.bytes_written += written.n_bytes;
-  const std::string summary = summary_of(parameters, solution);
+  result.statistics.bytes_written += written.n_bytes;
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (parameters.wants(OutputFile::summary) && is_first)
-    written.write(directory / "summary.json", summary);
+    written.write(directory / "summary.json", summary_json(scene, parameters, result));
   if (failure)
     std::rethrow_exception(failure);
   return written;
-}
-
-void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
-                   Solution& solution) {
-  const std::string summary = summary_of(parameters, solution);
-  const std::filesystem::path file = directory / "summary.json";
-  if (parameters.wants(OutputFile::summary) && process_number(solution.space().communicator()) == 0)
-    write_file(file, summary);
 }
 
 } // namespace rollwave

@@ -1,12 +1,12 @@
 #include "rollwave/output/scene_plot.h"
 
 #include "rollwave/base/text.h"
-#include "rollwave/output/surface_vtu.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
@@ -14,10 +14,14 @@ namespace rollwave {
 namespace {
 
 /// Half the range of angles around the contact, which is shown with half as much on both sides;
-/// without contact the gap is to be seen.
+/// without contact the gap is to be seen, at one node at least.
 double shown_angle(const Scene& scene, const Result& result) {
-  if (!result.contact.ends)
-    return std::max(0.2, 3 * (scene.road.distance / scene.outer_radius - 1));
+  if (!result.contact.ends) {
+    double nearest = std::numeric_limits<double>::max(); // node to the lowest point
+    for (const ContactRow& row : result.contact_rows)
+      nearest = std::min(nearest, std::abs(from_lowest_point(row.angle)));
+    return std::max({0.2, 3 * (scene.road.distance / scene.outer_radius - 1), 1.1 * nearest});
+  }
   return 1.5 * std::max(std::abs(from_lowest_point(result.contact.ends->first)),
                         std::abs(from_lowest_point(result.contact.ends->second)));
 }

@@ -12,7 +12,6 @@
 #include <iomanip>
 #include <ostream>
 #include <regex>
-#include <sstream>
 #include <tuple>
 
 namespace rollwave {
@@ -20,14 +19,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-/// Prints a table. It is made as a text first: deal.II throws on a stream that has failed, and then
-/// no file would be written.
-void print_table(std::ostream& out, const TableHandler& table) {
-  std::ostringstream text;
-  table.write_text(text, TableHandler::table_with_headers);
-  out << text.str();
-}
 
 /// The search for the distance of a given load.
 void report_distances(std::ostream& out, const std::vector<DistanceStep>& history,
@@ -41,15 +32,21 @@ void report_distances(std::ostream& out, const std::vector<DistanceStep>& histor
     table.add_value(load, rounded(history[step].load * units.of(Quantity::force), 9));
     table.add_value("contact steps", history[step].contact_steps);
   }
-  out << "\nDistance steps by Newton's method\n";
-  print_table(out, table);
+  out << "\nDistance steps by Newton's method\n" << table_text(table);
 }
 
 /// A longer history is printed without its middle.
 constexpr unsigned int most_lines = 40;
 
-void report_history(std::ostream& out, const std::vector<ContactStep>& history,
-                    const Units& units) {
+void report_history(std::ostream& out, const Result& result, const Units& units) {
+  out << "\nContact steps";
+  if (result.rho > 0)
+    out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
+        << units.after(Quantity::force_density);
+  else
+    out << " by the active set method";
+  out << '\n';
+  const std::vector<ContactStep>& history = result.history;
   const double length = units.of(Quantity::length), pressure = units.of(Quantity::pressure);
   const std::string penetration = "penetration" + units.in_brackets(Quantity::length),
                     lowest_pressure = "lowest pressure" + units.in_brackets(Quantity::pressure);
@@ -69,7 +66,7 @@ void report_history(std::ostream& out, const std::vector<ContactStep>& history,
     table.set_precision(column, 3);
     table.set_scientific(column, true);
   }
-  print_table(out, table);
+  out << table_text(table);
   if (history.size() > most_lines)
     out << "... steps " << most_lines / 2 + 1 << " to " << history.size() - most_lines / 2
         << " left out\n";
@@ -196,14 +193,9 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
       << " to " << mesh.h_max * length << units.after(Quantity::length) << '\n';
   if (!result.distance_history.empty())
     report_distances(out, result.distance_history, units);
-  out << "\nContact steps";
-  if (result.rho > 0)
-    out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
-        << units.after(Quantity::force_density);
-  else
-    out << " by the active set method";
-  out << '\n';
-  report_history(out, result.history, units);
+  // The last distance step has found the contact already.
+  if (result.distance_history.empty() || result.history.size() > 1)
+    report_history(out, result, units);
   for (const std::string& remark : result.remarks)
     out << "Note: " << remark << '\n';
   out << "\nResult\n";

@@ -7,7 +7,6 @@
 #include <deal.II/base/table_handler.h>
 
 #include <ostream>
-#include <sstream>
 #include <string>
 
 namespace rollwave {
@@ -67,9 +66,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     out << " at the computed distance " << rounded(result.road_distance * units.length, 9)
         << units.after(Quantity::length);
   out << '\n';
-  std::ostringstream text; // where deal.II cannot write, it throws
-  table.write_text(text, TableHandler::table_with_headers);
-  out << text.str();
+  out << table_text(table);
   if (!exact.ends_resolved)
     out << "Note: near the critical speed the exact pressure is not resolved at its ends; F and J "
            "are.\n";

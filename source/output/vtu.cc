@@ -12,7 +12,6 @@
 #include <limits>
 #include <ostream>
 #include <tuple>
-#include <utility>
 
 namespace rollwave {
 

@@ -36,14 +36,6 @@ std::string refusal_of(const Setting& setting, const std::string& reason) {
          in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
 }
 
-/// Advice on a number that is followed by something else; empty for other texts.
-std::string hint_on_number(const std::string& value) {
-  static const std::regex number_and_more(R"([+-]?\d[\d.]*[ ]*[,a-zA-Z/].*)");
-  return std::regex_match(value, number_and_more)
-             ? ": numbers have a decimal point and no unit, which Output/Unit names gives"
-             : "";
-}
-
 } // namespace
 
 Setting parse_setting(const std::string& text, const std::string& origin) {
@@ -85,9 +77,7 @@ void Keys::declare(const std::string& name, const std::string& default_value, co
       parse(setting);
     } catch (const BadInput& error) {
       const std::string reason = error.what();
-      throw BadInput(refusal_of(setting, reason.empty() ? "invalid" + hint_on_number(value) +
-                                                              ". Expected: " + text
-                                                        : reason));
+      throw BadInput(refusal_of(setting, reason.empty() ? "invalid. Expected: " + text : reason));
     }
     if (origin)
       settings.push_back(setting);

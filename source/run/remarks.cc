@@ -39,29 +39,6 @@ bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
   return false;
 }
 
-/// The number of unknowns that the wanted error needs by the rate of the meshes so far, such as
-/// "1e-07 needs about 4e+06 unknowns at degree 2; "; empty where there are too few meshes.
-std::string cost_text(const RunOptions& options, const Result& result) {
-  const double wanted = options.mesh.wanted_relative_error;
-  const CycleFigures *begin = nullptr, *end = nullptr; // of the meshes that give the rate
-  for (const CycleFigures& mesh : result.cycles)
-    if (mesh.indicated > 0)
-      end = &mesh;
-  for (const CycleFigures& mesh : result.cycles)
-    if (end && 4 * mesh.n_unknowns <= end->n_unknowns)
-      begin = &mesh;
-  if (!result.certified || !begin || !(end->indicated < begin->indicated))
-    return {};
-  const double rate = std::log(begin->indicated / end->indicated) /
-                      std::log(double(end->n_unknowns) / begin->n_unknowns);
-  const double needed =
-      result.mesh.n_unknowns * std::pow(result.certified->relative / wanted, 1 / rate);
-  const bool has_higher =
-      result.mesh.degree < highest_degree && options.mesh.marking != Marking::all;
-  return rounded(wanted, 6) + " needs about " + rounded(needed, 1) + " unknowns at degree " +
-         std::to_string(result.mesh.degree) + (has_higher ? ", fewer at a higher one; " : "; ");
-}
-
 /// On contact that ends where the zone does, other than at the tangent of a drum.
 std::string remark_on_zone_ends(const RunOptions& options, const Scene& scene,
                                 const Result& result) {
@@ -148,10 +125,10 @@ std::string missing_error_text(const RunOptions& options, const Result& result,
                                bool is_at_finest_level) {
   const std::string reached = result.certified
                                   ? "the certified relative error is " +
-                                        rounded(result.certified->relative, 6) + ", wanted " +
+                                        rounded_up(result.certified->relative, 6) + ", wanted " +
                                         rounded(options.mesh.wanted_relative_error, 6) + "; "
                                   : "";
-  return reached + cost_text(options, result) +
+  return reached +
          (is_at_finest_level
               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
                 "Mesh/Angular cells, or Mesh/Wanted relative error"

@@ -12,7 +12,6 @@
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>

@@ -4,7 +4,6 @@
 #include "rollwave/scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace rollwave {
 

@@ -2,7 +2,6 @@
 
 #include "rollwave/base/memory.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace rollwave {

@@ -1,6 +1,7 @@
 #include "rollwave/study/convergence.h"
 
 #include "rollwave/adapt/marking.h"
+#include "rollwave/base/text.h"
 #include "rollwave/run/quantities.h"
 
 #include <deal.II/base/convergence_table.h>
@@ -74,17 +75,18 @@ void print_errors(std::ostream& out, const Study& study, const std::vector<unsig
     const std::string &name = error.name,
                       title = error.symbol + study.units().in_brackets(error.quantity);
     if (is_known(study, meshes, name)) {
-      for (const unsigned int run : meshes)
-        table.add_value(title, *study.value(run, name));
-      table.set_precision(title, 3);
+      for (const unsigned int run : meshes) {
+        const double value = *study.value(run, name);
+        table.add_value(title,
+                        error.shown & Shown::upper_bound ? std::stod(rounded_up(value, 4)) : value);
+      }
+      table.set_precision(title, 3); // behind the first digit
       table.set_scientific(title, true);
       table.evaluate_convergence_rates(title, "unknowns",
                                        dealii::ConvergenceTable::reduction_rate_log2, 2);
     }
   }
-  std::ostringstream text; // where deal.II cannot write, it throws
-  table.write_text(text, dealii::TableHandler::table_with_headers);
-  out << text.str();
+  out << table_text(table);
 }
 
 /// The orders over the last four meshes.

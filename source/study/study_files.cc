@@ -91,7 +91,7 @@ std::string x_label_of(const Study& study) {
 }
 
 /// The values of a quantity in all runs.
-std::vector<double> values_of(const Study& study, const std::string& quantity) {
+std::vector<double> values_in_runs(const Study& study, const std::string& quantity) {
   std::vector<double> values;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     values.push_back(study.value(run, quantity).value_or(missing_point));
@@ -112,7 +112,7 @@ std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
   for (const ResultQuantity& quantity : result_quantities())
     if (has_deflections && quantity.name == "contact.vertical_load")
       panels.push_back({label_of(study, deflection), label_of(study, quantity),
-                        curves_of(study, values_of(study, deflection.name), quantity.name)});
+                        curves_of(study, values_in_runs(study, deflection.name), quantity.name)});
     else if (quantity.shown & Shown::curve)
       panels.push_back(
           {x_label_of(study), label_of(study, quantity), curves_of(study, x, quantity.name)});

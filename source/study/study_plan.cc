@@ -1,13 +1,11 @@
 #include "rollwave/study/study_plan.h"
 
-#include "rollwave/base/text.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
 
 #include <algorithm>
 #include <cctype>
-#include <stdexcept>
 #include <utility>
 
 namespace rollwave {

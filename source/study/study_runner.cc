@@ -2,7 +2,6 @@
 
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/errors.h"
-#include "rollwave/base/interrupt.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/text.h"
 #include "rollwave/output/output_directory.h"

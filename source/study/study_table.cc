@@ -85,11 +85,7 @@ std::string line_of_run(const Study& study, unsigned int run) {
 }
 
 std::string table_as_text(const Study& study) {
-  std::ostringstream text;
-  make_table(study, [](const std::string& plain) {
-    return plain;
-  }).write_text(text, dealii::TableHandler::table_with_headers);
-  return text.str();
+  return table_text(make_table(study, [](const std::string& plain) { return plain; }));
 }
 
 std::string table_as_tex(const Study& study) {

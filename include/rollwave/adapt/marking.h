@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ADAPT_MARKING_H
-#define ROLLWAVE_ADAPT_MARKING_H
+#pragma once
 
 #include "rollwave/mesh/ring_space.h"
 
@@ -32,7 +31,7 @@ struct RefinementOptions {
   double wanted_relative_error = 0;            ///< 0: none
   Indicator indicator = Indicator::certificate;
   Marking marking = Marking::bulk;
-  double marked_fraction = 0.6;
+  double marked_fraction = 0.75;
 };
 
 /// How often a run refines its mesh at most.
@@ -69,5 +68,3 @@ bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
 bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_ATOMIC_FILE_H
-#define ROLLWAVE_BASE_ATOMIC_FILE_H
+#pragma once
 
 #include <filesystem>
 #include <fstream>
@@ -45,5 +44,3 @@ unsigned long write_file(const std::filesystem::path& path, const std::string& c
 void append_to_file(const std::filesystem::path& path, const std::string& text);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_ERRORS_H
-#define ROLLWAVE_BASE_ERRORS_H
+#pragma once
 
 #include <stdexcept>
 #include <string>
@@ -53,5 +52,3 @@ struct NotWritten : std::runtime_error {
 };
 
 } // namespace rollwave
-
-#endif

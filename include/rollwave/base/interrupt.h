@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_INTERRUPT_H
-#define ROLLWAVE_BASE_INTERRUPT_H
+#pragma once
 
 #include <mpi.h>
 
@@ -16,5 +15,3 @@ void install_signal_handlers(bool reports = true);
 bool is_interrupted(MPI_Comm communicator);
 
 } // namespace rollwave
-
-#endif

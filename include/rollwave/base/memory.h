@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_MEMORY_H
-#define ROLLWAVE_BASE_MEMORY_H
+#pragma once
 
 #include <mpi.h>
 
@@ -26,5 +25,3 @@ bool fit_blas_into_address_space(char** argv);
 double peak_memory_mib();
 
 } // namespace rollwave
-
-#endif

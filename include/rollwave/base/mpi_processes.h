@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_MPI_PROCESSES_H
-#define ROLLWAVE_BASE_MPI_PROCESSES_H
+#pragma once
 
 #include <mpi.h>
 
@@ -30,5 +29,3 @@ std::string broadcast(MPI_Comm communicator, const std::string& text);
 std::string first_text(MPI_Comm communicator, const std::string& text);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_RUN_STATISTICS_H
-#define ROLLWAVE_BASE_RUN_STATISTICS_H
+#pragma once
 
 #include <deal.II/base/timer.h>
 
@@ -67,5 +66,3 @@ private:
 double seconds_of_process();
 
 } // namespace rollwave
-
-#endif

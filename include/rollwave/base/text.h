@@ -1,9 +1,12 @@
-#ifndef ROLLWAVE_BASE_TEXT_H
-#define ROLLWAVE_BASE_TEXT_H
+#pragma once
 
 #include <cstddef>
 #include <string>
 #include <vector>
+
+namespace dealii {
+class TableHandler;
+}
 
 namespace rollwave {
 
@@ -33,6 +36,7 @@ std::string rounded_down(double number, int digits);
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
 
-} // namespace rollwave
+/// A table with its heads. deal.II would throw on a stream that has failed; a text can be printed.
+std::string table_text(const dealii::TableHandler& table);
 
-#endif
+} // namespace rollwave

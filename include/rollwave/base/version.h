@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_BASE_VERSION_H
-#define ROLLWAVE_BASE_VERSION_H
+#pragma once
 
 #include <string>
 
@@ -9,5 +8,3 @@ namespace rollwave {
 std::string version_text();
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_CONTACT_ACTIVE_SET_H
-#define ROLLWAVE_CONTACT_ACTIVE_SET_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 
@@ -26,5 +25,3 @@ ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& pr
                            const ContactObserver& step_ended = {});
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_CONTACT_CONTACT_PATCH_H
-#define ROLLWAVE_CONTACT_CONTACT_PATCH_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 
@@ -56,5 +55,3 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
                                   const ContactProblem& problem, const ContactSolution& solution);
 
 } // namespace rollwave
-
-#endif

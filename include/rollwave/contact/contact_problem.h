@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
-#define ROLLWAVE_CONTACT_CONTACT_PROBLEM_H
+#pragma once
 
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
@@ -113,5 +112,3 @@ ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem&
                               const ContactObserver& step_ended = {});
 
 } // namespace rollwave
-
-#endif

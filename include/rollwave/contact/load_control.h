@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_CONTACT_LOAD_CONTROL_H
-#define ROLLWAVE_CONTACT_LOAD_CONTROL_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 
@@ -63,5 +62,3 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
 std::optional<std::string> missing_load_text(const Scene& scene, double load);
 
 } // namespace rollwave
-
-#endif

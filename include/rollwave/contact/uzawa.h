@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_CONTACT_UZAWA_H
-#define ROLLWAVE_CONTACT_UZAWA_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 
@@ -35,5 +34,3 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
                           const std::vector<bool>& nodes);
 
 } // namespace rollwave
-
-#endif

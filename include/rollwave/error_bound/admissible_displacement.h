@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_ADMISSIBLE_DISPLACEMENT_H
-#define ROLLWAVE_ERROR_BOUND_ADMISSIBLE_DISPLACEMENT_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 #include "rollwave/mesh/surface_trace.h"
@@ -70,5 +69,3 @@ FieldVector project_contact_nodes(const ContactBoundary& boundary, const Contact
                                   const std::vector<bool>& active, FieldVector field);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_ADMISSIBLE_PRESSURE_H
-#define ROLLWAVE_ERROR_BOUND_ADMISSIBLE_PRESSURE_H
+#pragma once
 
 #include <vector>
 
@@ -31,5 +30,3 @@ std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, 
                                                const ContactSolution& contact);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_DUAL_MATRICES_H
-#define ROLLWAVE_ERROR_BOUND_DUAL_MATRICES_H
+#pragma once
 
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/assembly.h"
@@ -18,5 +17,3 @@ namespace rollwave {
 CellMatrices dual_matrices(const RingSpace& space, RadialShapesOfMesh& shapes);
 
 } // namespace rollwave
-
-#endif

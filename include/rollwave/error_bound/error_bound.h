@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_ERROR_BOUND_H
-#define ROLLWAVE_ERROR_BOUND_ERROR_BOUND_H
+#pragma once
 
 #include "rollwave/error_bound/admissible_displacement.h"
 
@@ -75,5 +74,3 @@ Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     StressFunction& stress_function, RunStatistics& statistics);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
-#define ROLLWAVE_ERROR_BOUND_FORCE_INTEGRAL_H
+#pragma once
 
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
@@ -98,5 +97,3 @@ FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
                           RadialShapesOfMesh& shapes);
 
 } // namespace rollwave
-
-#endif

@@ -1,11 +1,8 @@
-#ifndef ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
-#define ROLLWAVE_ERROR_BOUND_RADIAL_SHAPES_H
+#pragma once
 
-#include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/polynomial.h>
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
@@ -103,5 +100,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_ERROR_BOUND_STRESS_FUNCTION_H
-#define ROLLWAVE_ERROR_BOUND_STRESS_FUNCTION_H
+#pragma once
 
 #include "rollwave/error_bound/admissible_pressure.h"
 #include "rollwave/error_bound/force_integral.h"
@@ -59,5 +58,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

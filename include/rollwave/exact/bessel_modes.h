@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_BESSEL_MODES_H
-#define ROLLWAVE_EXACT_BESSEL_MODES_H
+#pragma once
 
 #include <vector>
 
@@ -57,5 +56,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_EXACT_FIELD_H
-#define ROLLWAVE_EXACT_EXACT_FIELD_H
+#pragma once
 
 #include "rollwave/exact/bessel_modes.h"
 #include "rollwave/exact/exact_solution.h"
@@ -35,5 +34,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

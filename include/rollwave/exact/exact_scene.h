@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_EXACT_SCENE_H
-#define ROLLWAVE_EXACT_EXACT_SCENE_H
+#pragma once
 
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/uniform_force.h"
@@ -27,5 +26,3 @@ struct ExactScene {
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_EXACT_SOLUTION_H
-#define ROLLWAVE_EXACT_EXACT_SOLUTION_H
+#pragma once
 
 #include "rollwave/exact/exact_scene.h"
 #include "rollwave/exact/gegenbauer_pressure.h"
@@ -52,5 +51,3 @@ struct ExactSolution {
 ExactSolution solve_exactly(const ExactScene& scene);
 
 } // namespace rollwave
-
-#endif

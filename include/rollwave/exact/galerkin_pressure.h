@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_GALERKIN_PRESSURE_H
-#define ROLLWAVE_EXACT_GALERKIN_PRESSURE_H
+#pragma once
 
 #include "rollwave/exact/bessel_modes.h"
 #include "rollwave/exact/exact_scene.h"
@@ -57,5 +56,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_EXACT_GEGENBAUER_PRESSURE_H
-#define ROLLWAVE_EXACT_GEGENBAUER_PRESSURE_H
+#pragma once
 
 #include <complex>
 #include <vector>
@@ -50,5 +49,3 @@ std::vector<double> gegenbauer_transforms(double nu, unsigned int count, double 
 std::vector<double> gegenbauer_polynomials(double nu, unsigned int count, double t);
 
 } // namespace rollwave
-
-#endif

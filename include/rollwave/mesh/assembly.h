@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_ASSEMBLY_H
-#define ROLLWAVE_MESH_ASSEMBLY_H
+#pragma once
 
 #include "rollwave/mesh/ring_space.h"
 
@@ -32,5 +31,3 @@ using CellMatrices = std::function<void(const AddCellMatrix& add)>;
 CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_CONTACT_BOUNDARY_H
-#define ROLLWAVE_MESH_CONTACT_BOUNDARY_H
+#pragma once
 
 #include "rollwave/mesh/ring_space.h"
 
@@ -44,5 +43,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

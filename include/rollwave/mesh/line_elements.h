@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_LINE_ELEMENTS_H
-#define ROLLWAVE_MESH_LINE_ELEMENTS_H
+#pragma once
 
 #include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature.h>
@@ -33,5 +32,3 @@ dealii::Quadrature<1> graded_rule_on_reference(double begin, double end,
                                                const dealii::Quadrature<1>& points);
 
 } // namespace rollwave
-
-#endif

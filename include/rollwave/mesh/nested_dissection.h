@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_NESTED_DISSECTION_H
-#define ROLLWAVE_MESH_NESTED_DISSECTION_H
+#pragma once
 
 #include <deal.II/dofs/dof_handler.h>
 
@@ -17,5 +16,3 @@ namespace rollwave {
 std::vector<dealii::types::global_dof_index> dissect(const dealii::DoFHandler<2>& handler);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_RING_MESH_H
-#define ROLLWAVE_MESH_RING_MESH_H
+#pragma once
 
 #include <deal.II/grid/tria.h>
 
@@ -54,5 +53,3 @@ std::unique_ptr<dealii::Triangulation<2>> make_ring_mesh(const Scene& scene,
                                                          MPI_Comm communicator);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_RING_SPACE_H
-#define ROLLWAVE_MESH_RING_SPACE_H
+#pragma once
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
@@ -134,5 +133,3 @@ std::vector<dealii::DoFHandler<2>::active_cell_iterator>
 neighbours(const dealii::DoFHandler<2>::active_cell_iterator& cell, unsigned int face);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_MESH_SURFACE_TRACE_H
-#define ROLLWAVE_MESH_SURFACE_TRACE_H
+#pragma once
 
 #include "rollwave/mesh/ring_space.h"
 
@@ -40,5 +39,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

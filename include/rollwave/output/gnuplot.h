@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_GNUPLOT_H
-#define ROLLWAVE_OUTPUT_GNUPLOT_H
+#pragma once
 
 #include "rollwave/output/output_directory.h"
 
@@ -23,5 +22,3 @@ void draw(const Picture& picture, const std::filesystem::path& directory, const 
           WrittenFiles& written);
 
 } // namespace rollwave
-
-#endif

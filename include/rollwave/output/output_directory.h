@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_OUTPUT_DIRECTORY_H
-#define ROLLWAVE_OUTPUT_OUTPUT_DIRECTORY_H
+#pragma once
 
 #include "rollwave/parameters/parameters.h"
 
@@ -44,5 +43,3 @@ std::vector<std::string> prepare_directory(const Parameters& parameters, bool is
                                            MPI_Comm communicator);
 
 } // namespace rollwave
-
-#endif

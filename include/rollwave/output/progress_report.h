@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_PROGRESS_REPORT_H
-#define ROLLWAVE_OUTPUT_PROGRESS_REPORT_H
+#pragma once
 
 #include "rollwave/run/progress.h"
 #include "rollwave/scene/units.h"
@@ -16,5 +15,3 @@ Progress report_progress(std::ostream& out, const Units& units);
 Progress report_long_runs(std::ostream& out);
 
 } // namespace rollwave
-
-#endif

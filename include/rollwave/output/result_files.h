@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_RESULT_FILES_H
-#define ROLLWAVE_OUTPUT_RESULT_FILES_H
+#pragma once
 
 #include "rollwave/output/output_directory.h"
 #include "rollwave/run/simulation.h"
@@ -12,11 +11,4 @@ namespace rollwave {
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution);
 
-/// Writes summary.json, if @p parameters ask for it, again where a result has been completed.
-/// @throws NotWritten.
-void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
-                   Solution& solution);
-
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_SCENE_PLOT_H
-#define ROLLWAVE_OUTPUT_SCENE_PLOT_H
+#pragma once
 
 #include "rollwave/output/gnuplot.h"
 #include "rollwave/run/result.h"
@@ -11,5 +10,3 @@ namespace rollwave {
 Picture plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave
-
-#endif

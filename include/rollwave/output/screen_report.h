@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_SCREEN_REPORT_H
-#define ROLLWAVE_OUTPUT_SCREEN_REPORT_H
+#pragma once
 
 #include "rollwave/output/output_directory.h"
 #include "rollwave/run/result.h"
@@ -23,5 +22,3 @@ void report_end(std::ostream& out, const RunStatistics& statistics, const Writte
 void report_files(std::ostream& out, const WrittenFiles& written);
 
 } // namespace rollwave
-
-#endif

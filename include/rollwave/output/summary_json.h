@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_SUMMARY_JSON_H
-#define ROLLWAVE_OUTPUT_SUMMARY_JSON_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
@@ -14,5 +13,3 @@ namespace rollwave {
 std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result);
 
 } // namespace rollwave
-
-#endif

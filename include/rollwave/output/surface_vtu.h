@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_SURFACE_VTU_H
-#define ROLLWAVE_OUTPUT_SURFACE_VTU_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/scene/scene.h"
@@ -17,5 +16,3 @@ std::string surface_vtu(const Scene& scene, const Result& result);
 std::string road_vtu(const Scene& scene);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_OUTPUT_VERIFICATION_REPORT_H
-#define ROLLWAVE_OUTPUT_VERIFICATION_REPORT_H
+#pragma once
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/run/result.h"
@@ -14,5 +13,3 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
                          const ExactSolution& exact);
 
 } // namespace rollwave
-
-#endif

@@ -1,7 +1,6 @@
-#ifndef ROLLWAVE_OUTPUT_VTU_H
-#define ROLLWAVE_OUTPUT_VTU_H
+#pragma once
 
-#include "rollwave/parameters/parameters.h"
+#include "rollwave/parameters/output_options.h"
 #include "rollwave/run/simulation.h"
 
 #include <iosfwd>
@@ -27,5 +26,3 @@ void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind k
                          const std::vector<std::string>& pieces);
 
 } // namespace rollwave
-
-#endif

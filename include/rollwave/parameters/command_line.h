@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_COMMAND_LINE_H
-#define ROLLWAVE_PARAMETERS_COMMAND_LINE_H
+#pragma once
 
 #include "rollwave/parameters/key.h"
 
@@ -31,5 +30,3 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
 std::string usage();
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_KEY_H
-#define ROLLWAVE_PARAMETERS_KEY_H
+#pragma once
 
 #include "rollwave/base/errors.h"
 #include "rollwave/scene/units.h"
@@ -52,5 +51,3 @@ struct Key : KeyAttributes {
 };
 
 } // namespace rollwave
-
-#endif

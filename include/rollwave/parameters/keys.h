@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_KEYS_H
-#define ROLLWAVE_PARAMETERS_KEYS_H
+#pragma once
 
 #include "rollwave/parameters/key.h"
 
@@ -113,5 +112,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

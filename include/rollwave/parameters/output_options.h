@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
-#define ROLLWAVE_PARAMETERS_OUTPUT_OPTIONS_H
+#pragma once
 
 #include "rollwave/scene/units.h"
 
@@ -29,5 +28,3 @@ std::set<OutputFile> parse_files(const std::string& text);
 void declare_output(Keys& keys, OutputOptions& output, UnitNames& names);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_PARAMETERS_H
-#define ROLLWAVE_PARAMETERS_PARAMETERS_H
+#pragma once
 
 #include "rollwave/base/errors.h"
 #include "rollwave/parameters/key.h"
@@ -67,5 +66,3 @@ Parameters read_parameters(const std::vector<Setting>& settings);
 void print_parameters(std::ostream& out, const std::vector<Setting>& settings);
 
 } // namespace rollwave
-
-#endif

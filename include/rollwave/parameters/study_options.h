@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
-#define ROLLWAVE_PARAMETERS_STUDY_OPTIONS_H
+#pragma once
 
 #include "rollwave/parameters/key.h"
 #include "rollwave/parameters/output_options.h"
@@ -35,5 +34,3 @@ struct StudyOptions {
 void declare_study(Keys& keys, StudyOptions& study);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_ATTEMPT_H
-#define ROLLWAVE_RUN_ATTEMPT_H
+#pragma once
 
 #include <mpi.h>
 
@@ -14,12 +13,9 @@ namespace rollwave {
 /// @param missing such as "the error could not be certified"
 /// @param advice the change that helps
 /// @return true if the part has been computed
-/// @throws any exception except NotSolved on several processes, since it may have occurred on one
-/// of them only
+/// @throws on several processes any exception except NotSolved: it may be that of one process alone
 bool attempt(const std::function<void()>& compute, const std::string& missing,
              const std::string& advice, MPI_Comm communicator,
              std::vector<std::string>& shortfalls);
 
 } // namespace rollwave
-
-#endif

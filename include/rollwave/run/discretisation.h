@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_DISCRETISATION_H
-#define ROLLWAVE_RUN_DISCRETISATION_H
+#pragma once
 
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/stress_function.h"
@@ -60,5 +59,3 @@ struct Discretisation {
 double most_cells(const RunOptions& options);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_LOAD_BOUNDS_H
-#define ROLLWAVE_RUN_LOAD_BOUNDS_H
+#pragma once
 
 #include "rollwave/run/solve_on_mesh.h"
 
@@ -31,5 +30,3 @@ std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBou
                                      MeshCache& cache, RunStatistics& statistics);
 
 } // namespace rollwave
-
-#endif

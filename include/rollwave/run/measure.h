@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_MEASURE_H
-#define ROLLWAVE_RUN_MEASURE_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -10,5 +9,3 @@ namespace rollwave {
 Result measure(const MeshSolution& solution);
 
 } // namespace rollwave
-
-#endif

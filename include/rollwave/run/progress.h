@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_PROGRESS_H
-#define ROLLWAVE_RUN_PROGRESS_H
+#pragma once
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/contact/contact_problem.h"
@@ -19,5 +18,3 @@ struct Progress {
 };
 
 } // namespace rollwave
-
-#endif

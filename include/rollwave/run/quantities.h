@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_QUANTITIES_H
-#define ROLLWAVE_RUN_QUANTITIES_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/scene/units.h"
@@ -55,5 +54,3 @@ const ResultQuantity& result_quantity(const std::string& name);
 void print_quantities(std::ostream& out);
 
 } // namespace rollwave
-
-#endif

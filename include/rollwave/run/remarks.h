@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_REMARKS_H
-#define ROLLWAVE_RUN_REMARKS_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
@@ -24,5 +23,3 @@ std::string missing_error_text(const RunOptions& options, const Result& result,
 std::string residual_text(const Residuals& residuals);
 
 } // namespace rollwave
-
-#endif

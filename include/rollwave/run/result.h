@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_RESULT_H
-#define ROLLWAVE_RUN_RESULT_H
+#pragma once
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/contact/contact_patch.h"
@@ -124,5 +123,3 @@ struct Result {
 std::string shortfall_text(const Result& result);
 
 } // namespace rollwave
-
-#endif

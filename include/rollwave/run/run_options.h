@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_RUN_OPTIONS_H
-#define ROLLWAVE_RUN_RUN_OPTIONS_H
+#pragma once
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/contact/contact_problem.h"
@@ -30,5 +29,3 @@ Scene make_scene(const RunOptions& options);
 RunOptions coarser(RunOptions options);
 
 } // namespace rollwave
-
-#endif

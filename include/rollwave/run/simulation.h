@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_SIMULATION_H
-#define ROLLWAVE_RUN_SIMULATION_H
+#pragma once
 
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/run/discretisation.h"
@@ -51,5 +50,3 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
                   RunStatistics statistics = RunStatistics(), const Progress& progress = {});
 
 } // namespace rollwave
-
-#endif

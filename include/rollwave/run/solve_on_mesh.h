@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_RUN_SOLVE_ON_MESH_H
-#define ROLLWAVE_RUN_SOLVE_ON_MESH_H
+#pragma once
 
 #include "rollwave/contact/contact_problem.h"
 #include "rollwave/run/discretisation.h"
@@ -65,5 +64,3 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            const ContactObserver& step_ended = {});
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_BODY_FORCE_H
-#define ROLLWAVE_SCENE_BODY_FORCE_H
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -26,5 +25,3 @@ struct BodyForce {
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_FORCE_EXPRESSION_H
-#define ROLLWAVE_SCENE_FORCE_EXPRESSION_H
+#pragma once
 
 #include <functional>
 #include <optional>
@@ -18,5 +17,3 @@ std::function<double(double r, double z)> parse_force(const std::string& express
 std::optional<double> constant_force(const std::string& expression);
 
 } // namespace rollwave
-
-#endif

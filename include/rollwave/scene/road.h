@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_ROAD_H
-#define ROLLWAVE_SCENE_ROAD_H
+#pragma once
 
 #include <functional>
 #include <utility>
@@ -79,5 +78,3 @@ struct Obstacle {
 Obstacle make_obstacle(const Road& road);
 
 } // namespace rollwave
-
-#endif

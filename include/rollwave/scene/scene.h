@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_SCENE_H
-#define ROLLWAVE_SCENE_SCENE_H
+#pragma once
 
 #include "rollwave/scene/body_force.h"
 #include "rollwave/scene/road.h"
@@ -7,8 +6,6 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <cmath>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -130,5 +127,3 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                  const MaterialOptions& material, unsigned int angular_cells);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_UNIFORM_FORCE_H
-#define ROLLWAVE_SCENE_UNIFORM_FORCE_H
+#pragma once
 
 namespace rollwave {
 
@@ -23,5 +22,3 @@ double contact_free_unit_displacement(double inner_radius, double outer_radius, 
 double contact_free_unit_work(double inner_radius, double outer_radius);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SCENE_UNITS_H
-#define ROLLWAVE_SCENE_UNITS_H
+#pragma once
 
 #include <string>
 
@@ -68,5 +67,3 @@ struct Units {
 };
 
 } // namespace rollwave
-
-#endif

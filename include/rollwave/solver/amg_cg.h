@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_AMG_CG_H
-#define ROLLWAVE_SOLVER_AMG_CG_H
+#pragma once
 
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/solver/boomeramg.h"
@@ -54,5 +53,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

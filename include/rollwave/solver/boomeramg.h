@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_BOOMERAMG_H
-#define ROLLWAVE_SOLVER_BOOMERAMG_H
+#pragma once
 
 #include "rollwave/mesh/ring_space.h"
 
@@ -35,5 +34,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

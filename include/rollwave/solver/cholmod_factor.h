@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_CHOLMOD_FACTOR_H
-#define ROLLWAVE_SOLVER_CHOLMOD_FACTOR_H
+#pragma once
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -74,5 +73,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
-#define ROLLWAVE_SOLVER_CHOOSE_SOLVER_H
+#pragma once
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/solver/contact_linear_solver.h"
@@ -44,5 +43,3 @@ SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, c
                            RunStatistics& statistics);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
-#define ROLLWAVE_SOLVER_CONTACT_LINEAR_SOLVER_H
+#pragma once
 
 #include "rollwave/mesh/contact_boundary.h"
 
@@ -69,5 +68,3 @@ public:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_DIRECT_SOLVER_H
-#define ROLLWAVE_SOLVER_DIRECT_SOLVER_H
+#pragma once
 
 #include "rollwave/solver/contact_linear_solver.h"
 #include "rollwave/solver/sparse_cholesky.h"
@@ -68,5 +67,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_ITERATIVE_SOLVER_H
-#define ROLLWAVE_SOLVER_ITERATIVE_SOLVER_H
+#pragma once
 
 #include "rollwave/solver/amg_cg.h"
 #include "rollwave/solver/contact_linear_solver.h"
@@ -54,5 +53,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_SPARSE_CHOLESKY_H
-#define ROLLWAVE_SOLVER_SPARSE_CHOLESKY_H
+#pragma once
 
 #include "rollwave/solver/cholmod_factor.h"
 #include "rollwave/solver/spd_solver.h"
@@ -44,5 +43,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_SOLVER_SPD_SOLVER_H
-#define ROLLWAVE_SOLVER_SPD_SOLVER_H
+#pragma once
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/mesh/assembly.h"
@@ -23,5 +22,3 @@ public:
 };
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_CONVERGENCE_H
-#define ROLLWAVE_STUDY_CONVERGENCE_H
+#pragma once
 
 #include "rollwave/study/study_record.h"
 
@@ -25,5 +24,3 @@ std::vector<Family> find_families(const Study& study);
 void report_orders(std::ostream& out, const Study& study);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_CSV_H
-#define ROLLWAVE_STUDY_STUDY_CSV_H
+#pragma once
 
 #include "rollwave/study/study_record.h"
 
@@ -28,5 +27,3 @@ std::string profile_rows(const Study& study, unsigned int run);
 void read_profiles(const std::string& text, Study& study);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_FILES_H
-#define ROLLWAVE_STUDY_STUDY_FILES_H
+#pragma once
 
 #include "rollwave/output/output_directory.h"
 #include "rollwave/study/study_record.h"
@@ -24,5 +23,3 @@ namespace rollwave {
 WrittenFiles write_study(const Parameters& parameters, const Study& study);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_PLAN_H
-#define ROLLWAVE_STUDY_STUDY_PLAN_H
+#pragma once
 
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/units.h"
@@ -35,5 +34,3 @@ std::string key_with_value(const Setting& setting, const Units& units);
 std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_named);
 
 } // namespace rollwave
-
-#endif

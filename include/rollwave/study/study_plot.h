@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_PLOT_H
-#define ROLLWAVE_STUDY_STUDY_PLOT_H
+#pragma once
 
 #include "rollwave/output/gnuplot.h"
 
@@ -42,5 +41,3 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
                  const std::vector<std::vector<std::array<double, 3>>>& lines);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_RECORD_H
-#define ROLLWAVE_STUDY_STUDY_RECORD_H
+#pragma once
 
 #include "rollwave/run/result.h"
 #include "rollwave/scene/units.h"
@@ -60,5 +59,3 @@ std::map<std::string, double> values_of(const Result& result, const Units& units
 std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_RUNNER_H
-#define ROLLWAVE_STUDY_STUDY_RUNNER_H
+#pragma once
 
 #include "rollwave/study/study_record.h"
 
@@ -31,5 +30,3 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
                MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave
-
-#endif

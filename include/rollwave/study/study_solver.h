@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_SOLVER_H
-#define ROLLWAVE_STUDY_STUDY_SOLVER_H
+#pragma once
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/run/simulation.h"
@@ -53,5 +52,3 @@ private:
 };
 
 } // namespace rollwave
-
-#endif

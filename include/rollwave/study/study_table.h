@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_STUDY_STUDY_TABLE_H
-#define ROLLWAVE_STUDY_STUDY_TABLE_H
+#pragma once
 
 #include "rollwave/study/study_record.h"
 
@@ -23,5 +22,3 @@ std::string table_as_tex(const Study& study);
 void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave
-
-#endif

@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_VERIFY_REFERENCE_SOLUTION_H
-#define ROLLWAVE_VERIFY_REFERENCE_SOLUTION_H
+#pragma once
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/scene/scene.h"
@@ -20,5 +19,3 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene,
 std::optional<double> find_exact_distance(const Scene& scene);
 
 } // namespace rollwave
-
-#endif

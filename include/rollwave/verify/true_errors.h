@@ -1,5 +1,4 @@
-#ifndef ROLLWAVE_VERIFY_TRUE_ERRORS_H
-#define ROLLWAVE_VERIFY_TRUE_ERRORS_H
+#pragma once
 
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/exact/exact_solution.h"
@@ -29,5 +28,3 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
                                const ExactSolution& exact);
 
 } // namespace rollwave
-
-#endif
