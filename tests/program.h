@@ -9,9 +9,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
+#include <vector>
 
 struct Outcome {
   int exit_code;
@@ -34,6 +37,30 @@ inline Outcome shell(const std::string& command) {
     outcome.text.append(buffer.data(), count);
   outcome.exit_code = exit_code_of(pclose(pipe));
   return outcome;
+}
+
+/// A row of a CSV file by the names of its columns.
+using CsvRow = std::map<std::string, std::string>;
+
+/// The rows of a CSV file; texts with commas are in quotation marks.
+inline std::vector<CsvRow> csv_rows(const std::string& text) {
+  static const std::regex field("(\"[^\"]*\"|[^,]*)(,|$)");
+  std::vector<std::string> names;
+  std::vector<CsvRow> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> fields;
+    for (std::sregex_iterator match(line.begin(), line.end(), field), end; match != end; ++match)
+      fields.push_back((*match)[1]);
+    if (names.empty())
+      names = fields;
+    else {
+      rows.emplace_back();
+      for (std::size_t k = 0; k < names.size() && k < fields.size(); ++k)
+        rows.back()[names[k]] = fields[k];
+    }
+  }
+  return rows;
 }
 
 /// The program on a small scene, with a directory of its own for each test, empty at first.
