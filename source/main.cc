@@ -27,7 +27,8 @@ bool is_launched_by_mpi() {
   return std::getenv("PMIX_RANK") != nullptr;
 }
 
-void act(const std::vector<std::string>& arguments, MPI_Comm communicator, std::ostream& out) {
+void run_action(const std::vector<std::string>& arguments, MPI_Comm communicator,
+                std::ostream& out) {
   const CommandLine line = read_command_line(arguments);
   switch (line.action) {
   case CommandLine::Action::help:
@@ -59,7 +60,7 @@ int main(int argc, char* argv[]) {
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   bool is_first = true;
   if (is_launched_by_mpi()) {
-    int n_arguments = 1; // PETSc, which starts with MPI, knows none of the others
+    int n_arguments = 1; // PETSc starts with MPI and would reject the others
     mpi.emplace(n_arguments, argv, /*max_num_threads=*/1);
     is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     install_signal_handlers(is_first); // PETSc has replaced them
@@ -80,15 +81,15 @@ int main(int argc, char* argv[]) {
     if (!has_memory)
       throw NotEnoughMemory();
     std::ostream silence(nullptr);
-    act({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
-        is_first ? std::cout : silence);
+    run_action({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
+               is_first ? std::cout : silence);
     if (is_first && !(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");
     return 0;
   } catch (const BadInput& error) {
     return fail(error.what(), 1);
   } catch (const NotWritten& error) {
-    return fail(std::string("not written: ") + error.what(), 3);
+    return fail(error.what(), 3);
   } catch (const TargetNotReached& error) {
     return fail(std::string("target not reached: ") + error.what(), 2);
   } catch (const NotSolved& error) {

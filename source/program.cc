@@ -24,8 +24,8 @@ namespace rollwave {
 
 namespace {
 
-void make_study(Study& study, const Parameters& parameters, MPI_Comm communicator,
-                std::ostream& out) {
+void run_and_report_study(Study& study, const Parameters& parameters, MPI_Comm communicator,
+                          std::ostream& out) {
   out << version_text() << "\n\n";
   run_study(study, parameters, out, communicator);
   if (process_number(communicator) == 0) {
@@ -46,8 +46,7 @@ void verify(Solution& solution, std::ostream& out) {
   const RunStatistics::Phase phase(solution.result.statistics, "verification");
   std::string why;
   if (const auto exact = find_exact_solution(scene, &why)) {
-    solution.result.errors = measure_true_errors(solution.space(), solution.displacement,
-                                                 solution.result, solution.certificate, *exact);
+    solution.result.errors = measure_true_errors(solution, *exact);
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
     report_verification(out, scene, solution.result, *exact);
@@ -99,7 +98,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
-      make_study(study, parameters, communicator, out);
+      run_and_report_study(study, parameters, communicator, out);
     else
       solve_scene(scene, parameters, communicator, line.verify, out);
   } catch (const BadValue& value) {

@@ -109,17 +109,6 @@ TEST(ExactSolution, WithoutContactIsTheContactFreeSolution) {
   EXPECT_NEAR(result.energy.value, solution.energy, 1e-7 * std::abs(solution.energy));
 }
 
-TEST(ExactSolution, ForceIsTheSlopeOfTheEnergy) {
-  // dJ/dc = -G, and F < G < F / cos(w).
-  for (const double omega : {0., 1.}) {
-    const auto at = [&](double c) { return solve_exactly({0.2, 1, omega, c, 0.1}); };
-    const double slope = -(at(0.801).energy - at(0.799).energy) / 0.002;
-    const ExactSolution middle = at(0.8);
-    EXPECT_GT(slope, middle.force);
-    EXPECT_LT(slope, middle.force / std::cos(middle.half_width));
-  }
-}
-
 TEST(ExactSolution, IsOptimalPointByPoint) {
   for (const double omega : {0.5, 1.}) {
     const ExactScene scene{0.5, 1, omega, 0.8, 0.2};

@@ -1,4 +1,4 @@
-// G_h is G where a force is a polynomial, and delta is an upper estimate of what it misses.
+// Q_h is Q if a force is a polynomial, and delta is an upper estimate of their difference.
 #include "rollwave/error_bound/force_integral.h"
 
 #include "rollwave/base/errors.h"
@@ -13,7 +13,7 @@ using namespace rollwave;
 
 namespace {
 
-/// G_h of a force on a uniform mesh of the ring from 0.5 to 1.
+/// Q_h of a force on a uniform mesh of the ring from 0.5 to 1.
 struct OnMesh {
   explicit OnMesh(const std::string& force, unsigned int degree = 2,
                   const std::string& radial_cells = "4", const std::string& angular_cells = "30")
@@ -23,7 +23,7 @@ struct OnMesh {
         scene(make_scene(parameters)), mesh(scene, parameters), shapes(scene, degree),
         integral(mesh.space, scene, shapes) {}
 
-  /// (int (G - G_h)^2 / r dr dz)^(1/2) by rules with more points.
+  /// (int (Q - Q_h)^2 / r dr dz)^(1/2) by rules with more points.
   template <typename Function>
   double distance_to(const Function& exact) {
     double squared = 0;
@@ -35,7 +35,7 @@ struct OnMesh {
       for (unsigned int p = 0; p < fine.size(); ++p) {
         const double t = fine.point(p)[0], length = high[1] - low[1],
                      z = std::fmod(low[1] + t * length, 2 * M_PI);
-        integral.on_line_at(cell->active_cell_index(), t, line);
+        integral.values_on_line_at(cell->active_cell_index(), t, line);
         for (unsigned int q = 0; q < radial.r.size(); ++q)
           squared += fine.weight(p) * length * radial.weight_over_r[q] *
                      std::pow(line[q] - exact(radial.r[q], z), 2);
@@ -68,7 +68,7 @@ TEST(ForceIntegral, IsExactForPolynomials) {
 }
 
 // Smooth, singular, and with jumps along z, along r, and across both.
-TEST(ForceIntegral, MissesNoMoreThanItSays) {
+TEST(ForceIntegral, ErrorIsWithinItsEstimate) {
   const auto along_z = [](double r, double z) { return (z < 2.03 ? 1 : -1) * (1 - r * r) / 2; };
   const auto along_r = [](double r, double) { return r < 0.713 ? (0.713 * 0.713 - r * r) / 2 : 0; };
   const auto curve = [](double r, double z) {

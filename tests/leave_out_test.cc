@@ -47,7 +47,7 @@ TEST(LeaveOut, NoContactLoopWhenTheFreeSolutionIsFeasible) {
   EXPECT_EQ(result.statistics.dense_factorisations, 0u);
 }
 
-TEST(LeaveOut, CertificateAndIndicatorAreForThoseWhoAsk) {
+TEST(LeaveOut, CertificateAndIndicatorUnlessAskedFor) {
   const RunStatistics plain = work_of({"Certificate/Error bound=false"});
   EXPECT_FALSE(has_phase(plain, "certificate"));
   EXPECT_FALSE(has_phase(plain, "indicator"));

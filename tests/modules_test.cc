@@ -16,7 +16,7 @@ const std::vector<std::string> modules = {"base",       "scene",       "exact", 
                                           "contact",    "error_bound", "adapt", "run",  "verify",
                                           "parameters", "output",      "study"};
 
-/// The number of a module, from the ground; files on no module stand above all.
+/// The number of a module, from the lowest; files in no module are above all modules.
 std::size_t height(const std::string& module) {
   return std::find(modules.begin(), modules.end(), module) - modules.begin();
 }

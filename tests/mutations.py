@@ -19,7 +19,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('contact/contact_patch', '1. / 3 : 1. / 2', '1. / 2 : 1. / 3'),
     ('contact/load_control', '(near.work_conjugate - far.work_conjugate)', '(far.work_conjugate - near.work_conjugate)'),
     ('contact/load_control', '(excess > 0 ? near : far) = distance', '(excess < 0 ? near : far) = distance'),
-    ('contact/uzawa', 'p(i) - rho * (displacement(i) - problem.road(i))', 'p(i) + rho * (displacement(i) - problem.road(i))'),
+    ('contact/uzawa', 'p(i) - rho * (displacement(i) - problem.phi(i))', 'p(i) + rho * (displacement(i) - problem.phi(i))'),
     ('error_bound/error_bound', 'eta * eta / 2 -', 'eta * eta -'),
     ('error_bound/error_bound', 'moment - psi_z - r * v_r', 'moment + psi_z - r * v_r'),
     ('error_bound/error_bound', 'const double z_part = psi_s + v_z', 'const double z_part = psi_s - v_z'),
@@ -51,7 +51,8 @@ for name, right, wrong in MUTATIONS:
     path = root / f'source/{name}.cc'
     original = path.read_text()
     if right not in original:
-        print(f'not there   {name}: {right}', flush=True)
+        print(f'NOT THERE   {name}: {right}', flush=True)
+        survivors += 1
         continue
     path.write_text(original.replace(right, wrong, 1))
     try:

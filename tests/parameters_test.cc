@@ -69,7 +69,7 @@ TEST(Parameters, AreWrittenAndReadBackUnchanged) {
   EXPECT_FALSE(again.wants(OutputFile::solution));
 }
 
-// Of each key the printed file has one line, and the values given.
+// The printed file has one line per key, with the values given.
 TEST(Parameters, ArePrintedCompletely) {
   const std::vector<Setting> given = {{"Mesh", "Degree", "3", "test"},
                                       {"Road", "Load", "0.25", "test"}};
@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         "Cylinder/Radial force=", "Cylinder/Radial force=r*(", "Cylinder/Radial force=x",
         "Cylinder/Radial force=1/0", "Cylinder/Radial force=nan", "Cylinder/Radial force=inf",
         "Road/Distance=0", "Road/Distance=-0.8", "Road/Distance=0.5", "Road/Distance=2",
-        "Road/Distance=nan", "Road/Contact zone=3, 5", "Road/Contact zone=4, 6.3",
+        "Road/Distance=nan", "Road/Load=0", "Road/Contact zone=3, 5", "Road/Contact zone=4, 6.3",
         "Road/Contact zone=5, 4", "Road/Contact zone=4, 4", "Road/Contact zone=4",
         "Road/Contact zone=4, 5, 6", "Road/Contact zone=4, nan", "Mesh/Degree=0", "Mesh/Degree=9",
         "Mesh/Degree=1.5", "Mesh/Radial cells=0", "Mesh/Angular cells=2", "Mesh/Angular cells=-5",
@@ -155,7 +155,6 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Parameters, RefuseABraceInAFile) {
   expect_parts(refusal_of_text("subsection Mesh\n set Degree = {1|2}\nend\n"), {"Mesh", "Degree"});
-  EXPECT_EQ(refusal_of_text("subsection Output\n set Directory = a{b}\nend\n"), "");
 }
 
 TEST(Parameters, LaterOfDistanceAndLoadReplacesTheOther) {
@@ -174,6 +173,7 @@ TEST(Parameters, LaterOfDistanceAndLoadReplacesTheOther) {
   EXPECT_EQ(then(with_distance, "Load", "none", "file").road.distance, 0.7);
   expect_parts(refusal_of_text("subsection Road\n set Load = 1\n set Distance = 0.7\nend\n"),
                {"line 2", "Road", "Load"});
+  EXPECT_NE(refusal_of({"Road/Load=1", "Road/Distance=0.8"}), ""); // given, though the default
   // A study of distances may begin with a file of a load.
   Parameters study = parameters_of({"Road/Load=0.2"});
   study.study = parameters_of({"Study/Vary=Road/Distance = 0.7 | 0.8"}).study;
@@ -281,16 +281,6 @@ TEST(Parameters, SayHowManyUnknownsWereTooMany) {
       refusal_of_mesh({"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=2147483647",
                        "Mesh/Most unknowns=2147483647", "Road/Contact zone=4, 5"});
   EXPECT_NE(allowed.find("MiB of memory"), std::string::npos) << allowed;
-}
-
-TEST(Scene, AdmitsTheCriticalSpeedAndSaysWhatLiesBeyond) {
-  // 1/0.3 as a user types it may be rounded to either side.
-  for (const char* speed : {"3.3333333333333330", "3.3333333333333335", "3.33333333333333348"})
-    EXPECT_NO_THROW(make_scene(
-        parameters_of({"Cylinder/Inner radius=0.1", "Cylinder/Outer radius=0.3",
-                       "Road/Distance=0.25", std::string("Cylinder/Angular velocity=") + speed})))
-        << speed;
-  EXPECT_NE(refusal_of({"Cylinder/Angular velocity=1.01"}), "");
 }
 
 TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
@@ -407,7 +397,7 @@ TEST(Settings, HaveTheirSectionKeyAndValue) {
   EXPECT_THROW(parse_setting("Contact", "--set"), BadInput);
 }
 
-TEST(Settings, RefuseWhatIsNotOfTheGrammar) {
+TEST(Settings, RefuseBadSyntax) {
   for (const auto& [text, part] : std::vector<std::pair<std::string, std::string>>{
            {"subsection Mesh\nDegree = 2\nend\n", "2"},
            {"subsection Mesh\nset Degree 2\nend\n", "2"},

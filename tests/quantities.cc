@@ -40,7 +40,7 @@ double tolerance_of_solvers(const std::string& path, double expected) {
 double tolerance_of_uzawa(const std::string& path, double expected) {
   if (path.find("/residuals/") == 0)
     return 1e-6;
-  // The bound has the gaps in it, and the pressure is a derivative of the displacement.
+  // The gaps are part of the bound, and the pressure is a derivative of the displacement.
   const bool is_rough = std::regex_match(path, std::regex(".*(certified|peak_pressure|bound).*"));
   return (is_rough ? 1e-4 : 1e-6) * std::abs(expected);
 }

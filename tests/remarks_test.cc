@@ -11,7 +11,7 @@ using namespace rollwave;
 
 namespace {
 
-/// Of figure 4 on 8 x 100 cells with these settings.
+/// The remarks on figure 4 with 8 x 100 cells and these settings.
 std::vector<std::string> remarks_with(const std::vector<std::string>& settings) {
   const Parameters parameters =
       with(with(paper_scenes()[0].parameters(), {"Mesh/Radial cells=8", "Mesh/Angular cells=100"}),
@@ -25,14 +25,14 @@ bool have(const std::vector<std::string>& remarks, const std::string& text) {
   });
 }
 
-TEST(Remarks, AreNoneOfAnOrdinaryScene) {
+TEST(Remarks, AreAbsentForOrdinaryScenes) {
   for (const char* distance : {"0.8", "0.95", "1.1"})
     EXPECT_TRUE(remarks_with({std::string("Road/Distance=") + distance}).empty()) << distance;
   // Wider than contact is, the zone changes nothing.
   EXPECT_TRUE(remarks_with({"Road/Contact zone=3.9, 5.6"}).empty());
 }
 
-TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
+TEST(Remarks, GiveThePenetrationOutsideOfTheZone) {
   // Where nothing presses on it the surface stays where it was: u = 0, phi = c - b at the lowest
   // point.
   const auto outside = remarks_with({"Road/Contact zone=5.5, 6"});
@@ -42,13 +42,13 @@ TEST(Remarks, TellHowDeepTheSurfaceLiesInTheRoadOutsideOfTheZone) {
   EXPECT_TRUE(have(cut, "cuts the contact short"));
 }
 
-TEST(Remarks, TellWhenTheModelIsNotMeantForIt) {
+TEST(Remarks, WarnBeyondTheLinearModel) {
   for (const char* setting : {"Road/Distance=0.55", "Cylinder/Radial force=10"})
     EXPECT_TRUE(have(remarks_with({setting}), "linear model")) << setting;
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=100"}), "the end of the automatic zone"));
 }
 
-TEST(Remarks, TellWhenTheMeshDoesNotResolveTheContact) {
+TEST(Remarks, WarnIfTheMeshDoesNotResolveTheContact) {
   // Exact: F = 7.6e-7, half-width 2.3e-3; the cells are 0.6 long.
   const auto between = remarks_with({"Cylinder/Inner radius=0.9423", "Cylinder/Angular velocity=1",
                                      "Cylinder/Radial force=2.13", "Road/Distance=1.00361170949",
@@ -60,7 +60,7 @@ TEST(Remarks, TellWhenTheMeshDoesNotResolveTheContact) {
   EXPECT_TRUE(have(remarks_with({"Road/Distance=0.995"}), "held by 3 nodes"));
 }
 
-TEST(Remarks, TellWhenTheBoundSaysNothing) {
+TEST(Remarks, WarnIfTheBoundCertifiesNoDigit) {
   const auto hairline = remarks_with({"Road/Distance=0.999999"});
   EXPECT_TRUE(have(hairline, "no digit is certified"));
   EXPECT_TRUE(have(hairline, "held by 1 node"));

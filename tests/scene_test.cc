@@ -95,10 +95,10 @@ INSTANTIATE_TEST_SUITE_P(, PaperFigure, testing::ValuesIn(paper_scenes()),
 
 // Numbers of the user may be off by some last digits; alpha must not be negative for that.
 TEST(Scene, IsEllipticUpToTheRoundedCriticalSpeed) {
-  for (const double b : {1., 3., 0.7, 1e-3 / 3})
+  for (const double b : {1., 3., 0.7, 0.3, 1e-3 / 3})
     for (const char* modulus : {"1", "3"}) {
       const double critical = std::sqrt(std::stod(modulus)) / b;
-      for (double omega = critical; omega <= critical * (1 + 8e-16);
+      for (double omega = std::nextafter(critical, 0); omega <= critical * (1 + 8e-16);
            omega = std::nextafter(omega, 2 * omega)) {
         const Scene scene = make_scene(parameters_of(
             {assignment("Cylinder/Inner radius", b / 2), assignment("Cylinder/Outer radius", b),

@@ -6,7 +6,9 @@ Usage: xvfb-run -a screenshot.py DIRECTORY PICTURE.png
 import sys
 import vtk
 
-directory, picture = sys.argv[1:3]
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
+directory, picture = sys.argv[1:]
 
 
 def read(name):

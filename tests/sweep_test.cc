@@ -53,7 +53,7 @@ protected:
   std::optional<Discretisation> mesh;
 };
 
-TEST_P(Sweep, DoesNothingTwice) {
+TEST_P(Sweep, RepeatsNoWork) {
   const std::string zone = "Road/Contact zone=3.9, 5.5";
   const unsigned int n_factors = GetParam() == "direct" ? 2 : 0; // K and certificate
   const RunStatistics first = next({zone}).statistics;

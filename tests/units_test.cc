@@ -47,8 +47,7 @@ Solution solve(std::vector<std::string> settings, const std::vector<std::string>
   const Parameters parameters = parameters_of(settings);
   Solution solution = simulate(make_scene(parameters), parameters);
   if (const auto exact = find_exact_solution(solution.scene))
-    solution.result.errors = measure_true_errors(solution.space(), solution.displacement,
-                                                 solution.result, solution.certificate, *exact);
+    solution.result.errors = measure_true_errors(solution, *exact);
   return solution;
 }
 
@@ -156,12 +155,12 @@ TEST(Units, NameTheCriticalSpeedThatIsExceeded) {
     std::ostringstream critical;
     critical.precision(9);
     critical << wave_speed / b;
-    EXPECT_NE(refused.wanted.find(critical.str().substr(0, 9)), std::string::npos)
-        << refused.wanted;
+    EXPECT_NE(refused.reason.find(critical.str().substr(0, 9)), std::string::npos)
+        << refused.reason;
   }
 }
 
-TEST(Units, StandBehindTheNumbersOnTheScreen) {
+TEST(Units, FollowTheNumbersOnTheScreen) {
   auto settings = cylinder(true, 0.5);
   settings.push_back(assignment("Road/Distance", 0.8 * b));
   const Parameters parameters = parameters_of(settings);
@@ -178,7 +177,7 @@ TEST(Units, AreRefusedUnlessPositiveAndFinite) {
   for (const char* const key : {"Shear modulus", "Density", "Width"})
     for (const char* const value : {"0", "-1", "inf", "nan", "1e31"})
       EXPECT_THROW(parameters_of({std::string("Material/") + key + '=' + value}), BadInput);
-  for (const char* const names : {"m", "m, s", "m, s, N, K", "m, , N", "m, s, <N>"})
+  for (const char* const names : {"m", "m, s, N, K", "m, , N", "m, s, <N>"})
     EXPECT_THROW(parameters_of({std::string("Output/Unit names=") + names}), BadInput);
 }
 

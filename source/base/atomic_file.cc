@@ -22,7 +22,7 @@ namespace {
 
 AtomicFile::AtomicFile(const fs::path& path) : path(path), temporary(path) {
   temporary += "." + std::to_string(std::random_device()()) + ".part";
-  // A directory that is removed during a long computation does not cost the result.
+  // The directory may have been removed during a long computation.
   std::error_code ignored;
   fs::create_directories(path.parent_path(), ignored);
   errno = 0;

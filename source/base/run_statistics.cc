@@ -57,7 +57,7 @@ double RunStatistics::total_seconds() const {
 double seconds_of_process() {
   std::string text, skipped;
   std::getline(std::ifstream("/proc/self/stat"), text);
-  std::istringstream entries(text.substr(text.rfind(')') + 1)); // behind the program's name
+  std::istringstream entries(text.substr(text.rfind(')') + 1)); // after the program's name
   for (int entry = 3; entry < 22; ++entry)
     entries >> skipped;
   double start = 0, now = 0; // after the start of the system

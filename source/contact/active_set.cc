@@ -11,12 +11,12 @@ using namespace dealii;
 
 namespace {
 
-/// Signs are judged beyond these multiples of the largest displacement and pressure: what exact
-/// arithmetic would make zero comes out as round-off of this size.
+/// Relative to the largest displacement and pressure: smaller numbers are round-off and count as
+/// zero.
 constexpr double round_off = 1e-14;
 
-/// The same where the equations hold up to a residual. The displacement is as accurate as they are;
-/// the pressure, a residual over a weight, is less so where cells are small.
+/// Errors of displacement and pressure over the residual of the equations. The pressure, a residual
+/// over a weight, is less accurate on small cells.
 constexpr double displacement_error = 1, pressure_error = 10; // over the residual
 
 unsigned int count_changes(const std::vector<bool>& active, const std::vector<bool>& next) {

@@ -19,11 +19,11 @@ struct Profile {
   Vector<double> gap, pressure;
 };
 
-/// A stretch of contact: its first and last node, and how many nodes without contact on each side
-/// belong to it more than to the next stretch.
+/// A stretch of contact: its first and last node, and the number of free nodes on each side, shared
+/// with the next stretch.
 struct Stretch {
   int first, last;
-  int n_before, n_behind;
+  int n_before, n_after;
 };
 
 /// Where the line through (z0, value0^power) and (z1, value1^power) is zero; nullopt unless the
@@ -79,20 +79,20 @@ std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profi
       stretches.push_back({i, i, i, 0});
     else if (opening > negligible_gap) {
       Stretch& before = stretches.back();
-      before.n_behind = (i - before.last) / 2; // half of the nodes in between
-      stretches.push_back({i, i, before.n_behind, 0});
+      before.n_after = (i - before.last) / 2; // half of the nodes in between
+      stretches.push_back({i, i, before.n_after, 0});
     } else
       stretches.back().last = i;
     opening = 0;
   }
   if (!stretches.empty())
-    stretches.back().n_behind = n - 1 - stretches.back().last;
+    stretches.back().n_after = n - 1 - stretches.back().last;
   return stretches;
 }
 
 /// Between which angles contact can end: those of the zone, up to the tangent of a drum.
 std::pair<double, double> reach_of(const Scene& scene, const Road& road) {
-  const double lowest_point = 3 * numbers::PI / 2, tangent = road.tangent_angle();
+  const double tangent = road.tangent_angle();
   return {std::max(scene.zone_begin, lowest_point - tangent),
           std::min(scene.zone_end, lowest_point + tangent)};
 }
@@ -123,13 +123,13 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
   const auto [least_begin, largest_end] = reach_of(scene, problem.road);
   const double negligible_gap = std::max(solution.gap_accuracy, 1e-10 * displacement.linfty_norm());
   for (const Stretch& stretch : find_stretches(solution.active, profile, negligible_gap)) {
-    const auto [first, last, n_before, n_behind] = stretch;
+    const auto [first, last, n_before, n_after] = stretch;
     ContactPatch patch = {least_begin, largest_end, 0, 0, 0};
     if (n_before > 0)
       patch.begin =
           std::max(least_begin, find_end(scene, profile, first, -1, n_before, last - first));
-    if (n_behind > 0)
-      patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_behind, last - first));
+    if (n_after > 0)
+      patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_after, last - first));
     if (patch.end < patch.begin)
       std::swap(patch.begin, patch.end);
     patch.length = problem.road.arc_length(from_lowest_point(patch.end)) -

@@ -105,19 +105,21 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
                         const Scene& scene, const ContactProblem& problem,
                         const ContactSolution& solution, unsigned int most_steps) {
   const ContactState rate = rate_of_approach(solver, problem, solution);
-  const Loads of_set = loads_of(problem, rate.force); // while the same nodes stay in contact
-  if (!(of_set.total > 0))
-    return of_set;
-  // The nodes at the ends come and go alike after each cell: two cells average over them.
+  const Loads fixed_set_stiffness =
+      loads_of(problem, rate.force); // while the same nodes stay in contact
+  if (!(fixed_set_stiffness.total > 0))
+    return fixed_set_stiffness;
+  // The nodes at the ends repeat their pattern with each cell: the mean over two cells.
   constexpr double n_cells = 2;
   const Bracket limits(scene);
   const double c = scene.road.distance;
   const unsigned int degree = boundary.space().dof_handler().get_fe().degree;
-  const double step = std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
-                                loads_of(problem, solution.state.force).total / of_set.total / 2,
-                                c - limits.near, limits.far - c});
+  const double step =
+      std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
+                loads_of(problem, solution.state.force).total / fixed_set_stiffness.total / 2,
+                c - limits.near, limits.far - c});
   if (!(step > 1e-10 * c))
-    return of_set;
+    return fixed_set_stiffness;
   const auto loads_at = [&](double distance) {
     const ContactProblem moved = make_contact_problem(boundary, with_distance(scene, distance));
     const ContactSolution contact =
@@ -186,8 +188,8 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load) {
   std::ostringstream text;
   text << "the load is " << std::setprecision(12) << load * force << ", wanted " << wanted * force
        << std::setprecision(3) << " (relative difference " << std::abs(load / wanted - 1)
-       << "): no distance between two neighbouring numbers comes nearer; change Road/Load, or "
-          "prescribe Road/Distance";
+       << "): the next distance in double precision is no better; change Road/Load, or prescribe "
+          "Road/Distance";
   return text.str();
 }
 

@@ -17,8 +17,8 @@ namespace {
 [[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
                           const ContactOptions& options, double rho, std::size_t steps,
                           double reached) {
-  // Below the first of these the method converges from anywhere; above the second the solution
-  // itself repels, so that it cannot converge.
+  // Below the first of these the method converges from any start; above the second it diverges even
+  // from near the solution.
   const ContactSolution exact = active_set(solver, problem, options.most_steps);
   const double safe =
                    2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
@@ -146,7 +146,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
         solver.solve(none, solution.state, final_accuracy);
       return solution;
     }
-    // The linear problems may be solved as loosely as leaves the next step unharmed.
+    // The linear problems are solved 100 times more accurately than the residual of the step.
     accuracy = std::min(step.residual / 100, loose_accuracy);
 
     // Below the largest rho the residual falls; beyond it, it ends in an oscillation.

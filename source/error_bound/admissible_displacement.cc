@@ -59,9 +59,9 @@ AdmissibleTrace::pieces_of(unsigned int face, const std::pair<double, double>& z
   const auto& [begin, end, nodes] = discrete.faces()[face];
   const double length = end - begin;
   const bool begins_before = zone.first - begin <= angular_round_off;
-  const bool ends_behind = end - zone.second <= angular_round_off;
+  const bool ends_after = end - zone.second <= angular_round_off;
   const double zone_begin = begins_before ? 0 : (zone.first - begin) / length;
-  const double zone_end = ends_behind ? 1 : (zone.second - begin) / length;
+  const double zone_end = ends_after ? 1 : (zone.second - begin) / length;
   if (touches && zone_begin == 0 && zone_end == 1)
     return {{Piece::Kind::touching, 0, 1}};
   if (zone_begin < zone_end)

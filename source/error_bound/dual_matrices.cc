@@ -15,15 +15,14 @@ ShapeProducts angular_products(unsigned int degree) {
   const auto shapes = lobatto_lagrange(degree);
   const QGauss<1> gauss(degree + 1);
   ShapeProducts products = {FullMatrix<double>(degree + 1), FullMatrix<double>(degree + 1)};
-  std::vector<double> one(2), other(2); // value and derivative
-  for (unsigned int q = 0; q < gauss.size(); ++q)
+  for (unsigned int q = 0; q < gauss.size(); ++q) {
+    const auto [value, derivative] = ShapesAtPoint(shapes, gauss.point(q)[0]);
     for (unsigned int i = 0; i <= degree; ++i)
       for (unsigned int j = 0; j <= degree; ++j) {
-        shapes[i].value(gauss.point(q)[0], one);
-        shapes[j].value(gauss.point(q)[0], other);
-        products.mass(i, j) += gauss.weight(q) * one[0] * other[0];
-        products.stiffness(i, j) += gauss.weight(q) * one[1] * other[1];
+        products.mass(i, j) += gauss.weight(q) * value[i] * value[j];
+        products.stiffness(i, j) += gauss.weight(q) * derivative[i] * derivative[j];
       }
+  }
   return products;
 }
 

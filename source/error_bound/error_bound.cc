@@ -31,20 +31,6 @@ struct AdmissibleFields {
   const ForceIntegral* force;                 ///< nullptr without force
 };
 
-/// Shape functions in z at one point t = (z - begin)/(end - begin) of a cell.
-struct AngularShapes {
-  std::vector<double> value, derivative; ///< the latter d/dt
-
-  AngularShapes(const std::vector<Polynomials::Polynomial<double>>& lagrange, double t) {
-    double both[2];
-    for (const auto& polynomial : lagrange) {
-      polynomial.value(t, 1, both);
-      value.push_back(both[0]);
-      derivative.push_back(both[1]);
-    }
-  }
-};
-
 /// Integrals over dr, or sums of them. They have a higher precision, so that sums over very many
 /// cells are more accurate than the bounds of J are apart.
 struct Integrals {
@@ -96,7 +82,7 @@ public:
   }
 
 private:
-  /// Where v differs from u_h and the road's term is.
+  /// Over a cell at the surface, where v differs from u_h: adds the road's term.
   Integrals at_surface(unsigned int edge) {
     Integrals sums;
     for (const auto& piece : fields.trace.pieces(edge))
@@ -105,9 +91,9 @@ private:
         const double t = piece.t_begin + share * along_road.point(p)[0];
         const double weight = along_road.weight(p) * share * length;
         const auto correction = fields.trace.correction(edge, piece, t);
-        const AngularShapes angular(lagrange, t);
+        const ShapesAtPoint angular(lagrange, t);
         if (fields.force)
-          fields.force->on_line_at(number, t, moments);
+          fields.force->values_on_line_at(number, t, moments);
         sums.add(on_line(angular, correction, fields.force ? moments.data() : nullptr), weight);
         sums.bound_squared +=
             2 * weight * scene.outer_radius * fields.pressures[edge](t) * correction.gap;
@@ -115,8 +101,8 @@ private:
     return sums;
   }
 
-  /// @param moments G_h at the radii of the cell; nullptr without force
-  Integrals on_line(const AngularShapes& angular, const AdmissibleTrace::Correction& correction,
+  /// @param moments Q_h at the radii of the cell; nullptr without force
+  Integrals on_line(const ShapesAtPoint& angular, const AdmissibleTrace::Correction& correction,
                     const double* moments) {
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
@@ -144,7 +130,7 @@ private:
       }
       const double moment = moments ? moments[q] : 0;
       const double z_part = psi_s + v_z;              // tau_z = -alpha psi_s
-      const double r_part = moment - psi_z - r * v_r; // r tau_r = G - psi_z
+      const double r_part = moment - psi_z - r * v_r; // r tau_r = Q - psi_z
       sums.bound_squared +=
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
       sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
@@ -160,19 +146,18 @@ private:
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const QGauss<1> rule, along_road;
-  std::vector<AngularShapes> lines; ///< of the rule
+  std::vector<ShapesAtPoint> lines; ///< of the rule
   LexicographicDofs dofs;
   std::vector<double> u, psi; ///< values at those of the cell
   Point<2> low, high;
   double length = 0, height = 0;
   unsigned int number = 0; ///< of the active cell
   const RadialShapes* radial = nullptr;
-  /// Of u, psi and their angular derivatives along a line, and G_h there.
+  /// Of u, psi and their angular derivatives along a line, and Q_h there.
   std::vector<double> line_u, line_u_z, line_psi, line_psi_z, moments;
 };
 
-/// The integrals over all cells, and of each own cell its share of eta^2 and delta^2, the root of
-/// it.
+/// The integrals over all cells, and the error bound of each own cell.
 std::pair<Integrals, std::vector<double>> integrate(const RingSpace& space, const Scene& scene,
                                                     const AdmissibleFields& fields,
                                                     RadialShapesOfMesh& shapes) {
@@ -208,7 +193,7 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
   const double cancellation = scene.outer_radius / (scene.outer_radius - scene.inner_radius);
   const double round_off = 1e-15 * cancellation * (norm_squared + std::abs(work_of_force));
   const double energy_error = delta * std::sqrt(norm_squared) + round_off;
-  // Of u; what is less than this share of the bound may be rounding.
+  // A lower bound of |u|. Below 1e-9 of the error bound it is round-off.
   const double smallest_norm = std::sqrt(norm_squared) - energy_norm;
   const bool has_digits = smallest_norm > 1e-9 * energy_norm;
   return {energy_norm,

@@ -24,7 +24,7 @@ namespace {
 
 using Cell = DoFHandler<2>::active_cell_iterator;
 
-/// Lines z = const through each cell on which G is compared with G_h.
+/// Lines z = const through each cell on which Q is compared with Q_h.
 constexpr unsigned int n_lines = 32;
 
 /// The number of parts into which rules along r cut the intervals between the ends of cells. The
@@ -44,7 +44,7 @@ std::vector<double> all_radii(const RingSpace& space) {
   return {all.begin(), all.end()};
 }
 
-/// The error of G_h between the points along r, squared and integrated over dr / r: the square of
+/// The error of Q_h between the points along r, squared and integrated over dr / r: the square of
 /// the coefficient of the highest Legendre polynomial times the number of points. That is about the
 /// mean square of the error where coefficients fall slowly, and more than that where they
 /// fall fast.
@@ -89,18 +89,17 @@ double widest_step(const std::vector<double>& list) {
   return *std::max_element(steps.begin() + 1, steps.end());
 }
 
-/// G between two angles.
+/// Q between two angles.
 struct SectorSamples {
   std::vector<std::vector<double>> lines;     ///< at some radii, on the lines of the rule along z
   std::vector<double> missed_along_r;         ///< of the middle line
-  std::vector<double> missed_along_z_squared; ///< mean squares of G - G_h, at the ends of cells
+  std::vector<double> missed_along_z_squared; ///< mean squares of Q - Q_h, at the ends of cells
   double widest_gap;                          ///< between the points of the finer rules
 };
 
 /// @param gauss rule along r between the radii
 /// @param rule along z; @p lagrange are the polynomials of its points
-/// @param ends of cells along r
-/// @param radii with the ends among them
+/// @param ends of cells along r, which are among the @p radii
 /// @throws BadValue where f is not finite
 SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Quadrature<1>& rule,
                             const std::vector<Polynomials::Polynomial<double>>& lagrange,
@@ -166,12 +165,13 @@ ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, RadialS
       lagrange(Polynomials::generate_complete_Lagrange_basis(angular.get_points())),
       values(space.dof_handler().get_triangulation().n_active_cells()) {
   if (uniform)
-    take_uniform(space, *scene.force.uniform, shapes);
+    integrate_uniform(space, *scene.force.uniform, shapes);
   else
-    take_expression(space, scene, shapes);
+    integrate_expression(space, scene, shapes);
 }
 
-void ForceIntegral::take_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes) {
+void ForceIntegral::integrate_uniform(const RingSpace& space, double f,
+                                      RadialShapesOfMesh& shapes) {
   const double b = space.outer_radius();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -181,8 +181,8 @@ void ForceIntegral::take_uniform(const RingSpace& space, double f, RadialShapesO
   }
 }
 
-void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
-                                    RadialShapesOfMesh& shapes) {
+void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& scene,
+                                         RadialShapesOfMesh& shapes) {
   std::map<std::pair<double, double>, std::vector<Cell>> sectors; // by intervals of z
   for (const auto& cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
@@ -192,9 +192,9 @@ void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
   std::string refusal;
   try {
     for (const auto& [interval, cells] : sectors)
-      take_sector(scene, mesh_radii, cells, shapes);
+      integrate_sector(scene, mesh_radii, cells, shapes);
   } catch (const BadValue& bad) {
-    refusal = bad.wanted;
+    refusal = bad.reason;
   }
   if (refusal = first_text(space.communicator(), refusal); !refusal.empty())
     throw BadValue("Cylinder", "Radial force", refusal);
@@ -203,9 +203,9 @@ void ForceIntegral::take_expression(const RingSpace& space, const Scene& scene,
   width = Utilities::MPI::max(width, space.communicator());
 }
 
-/// Takes G_h, delta and width on the cells between two angles.
-void ForceIntegral::take_sector(const Scene& scene, const std::vector<double>& mesh_radii,
-                                const std::vector<Cell>& cells, RadialShapesOfMesh& shapes) {
+/// Sets Q_h, delta and width on the cells between two angles.
+void ForceIntegral::integrate_sector(const Scene& scene, const std::vector<double>& mesh_radii,
+                                     const std::vector<Cell>& cells, RadialShapesOfMesh& shapes) {
   const double begin = cells.front()->vertex(0)[1], length = cells.front()->vertex(3)[1] - begin;
   double innermost = scene.outer_radius;
   std::vector<double> radii;
@@ -220,7 +220,6 @@ void ForceIntegral::take_sector(const Scene& scene, const std::vector<double>& m
   std::sort(radii.begin(), radii.end());
   const SectorSamples samples =
       sample_sector(scene, inwards, angular, lagrange, ends, radii, begin, length);
-
   width = std::max({width, samples.widest_gap, scene.outer_radius * length / (n_lines - 1)});
   for (const Cell& cell : cells) {
     const double low = cell->vertex(0)[0], high = cell->vertex(3)[0];
@@ -244,7 +243,8 @@ void ForceIntegral::take_sector(const Scene& scene, const std::vector<double>& m
   }
 }
 
-void ForceIntegral::on_line_at(unsigned int cell, double t, std::vector<double>& line) const {
+void ForceIntegral::values_on_line_at(unsigned int cell, double t,
+                                      std::vector<double>& line) const {
   line.assign(n_radii(cell), 0.);
   for (unsigned int p = 0; p < angular.size(); ++p) {
     const double share = lagrange[p].value(t), *const values_on_line = on_line(cell, p);
@@ -258,14 +258,14 @@ void ForceIntegral::add_load(const RingSpace& space, RadialShapesOfMesh& shapes,
                              FieldVector& load) const {
   const bool of_potential = kind == TestSpace::potentials;
   const unsigned int n = space.dof_handler().get_fe().degree + 1;
-  const auto lagrange_shapes = lobatto_lagrange(n - 1);
   FullMatrix<double> along_z(angular.size(), n);
-  std::vector<double> both(2), along_r(n);
-  for (unsigned int p = 0; p < angular.size(); ++p)
-    for (unsigned int j = 0; j < n; ++j) {
-      lagrange_shapes[j].value(angular.point(p)[0], both);
-      along_z(p, j) = angular.weight(p) * both[of_potential];
-    }
+  for (unsigned int p = 0; p < angular.size(); ++p) {
+    const ShapesAtPoint shapes_at_p(lobatto_lagrange(n - 1), angular.point(p)[0]);
+    for (unsigned int j = 0; j < n; ++j)
+      along_z(p, j) =
+          angular.weight(p) * (of_potential ? shapes_at_p.derivative : shapes_at_p.value)[j];
+  }
+  std::vector<double> along_r(n);
   LexicographicDofs dofs(space.dof_handler());
   Vector<double> cell_load(n * n);
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {

@@ -86,17 +86,16 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
   shapes.weight = rule.weight;
 
   const unsigned int n_q = shapes.r.size(), n = lagrange.size();
-  std::vector<double> both(2);
   for (unsigned int q = 0; q < n_q; ++q) {
     const double r = shapes.r[q];
     shapes.weight_over_r.push_back(shapes.weight[q] / r);
     shapes.alpha.push_back(scene.alpha(r));
     const Vector<double> values = potential_shapes.values(r);
     const Vector<double> derivatives = potential_shapes.depth_derivatives(r);
-    for (unsigned int i = 0; i < n; ++i) {
-      lagrange[i].value((r - begin) / (end - begin), both);
-      shapes.shapes.push_back({both[0], both[1] / (end - begin), values[i], derivatives[i]});
-    }
+    const ShapesAtPoint displacements(lagrange, (r - begin) / (end - begin));
+    for (unsigned int i = 0; i < n; ++i)
+      shapes.shapes.push_back({displacements.value[i], displacements.derivative[i] / (end - begin),
+                               values[i], derivatives[i]});
   }
   const Polynomials::Legendre highest(points.size() - 1);
   for (unsigned int q = 0; q < points.size(); ++q)

@@ -21,7 +21,7 @@ ExactField::ExactField(const ExactScene& scene, const ExactSolution& solution, u
 ExactField::Value ExactField::operator()(double r, double z) const {
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   Value value{scene.contact_free_displacement(r), f * (b - r) * (b + r) / (2 * r), 0};
-  const double x = z - 3 * numbers::PI / 2;
+  const double x = from_lowest_point(z);
   for (unsigned int k = 0; k < amplitudes.size(); ++k) {
     double radial = 1, slope = 0;
     if (r < b) {

@@ -52,11 +52,11 @@ ExactSolution without_contact(const ExactScene& scene) {
   const double work =
       2 * numbers::PI * f * f * contact_free_unit_work(scene.inner_radius, scene.outer_radius);
   ExactSolution solution{scene, 0, 0, 0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {}};
-  solution.pressure = {3 * numbers::PI / 2, 1, 1, {0.}};
+  solution.pressure = {lowest_point, 1, 1, {0.}};
   return solution;
 }
 
-ExactSolution describe(const ExactScene& scene, const GalerkinPressure& galerkin, double w) {
+ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galerkin, double w) {
   const GalerkinPressure::Trial trial = galerkin.solve(w);
   std::vector<double> coefficients(2 * galerkin.n);
   for (unsigned int i = 0; i < galerkin.n; ++i)
@@ -64,7 +64,7 @@ ExactSolution describe(const ExactScene& scene, const GalerkinPressure& galerkin
   ExactSolution solution = without_contact(scene);
   solution.half_width = w;
   solution.end_exponent = galerkin.nu - 0.5;
-  solution.pressure = {3 * numbers::PI / 2, w, galerkin.nu, coefficients};
+  solution.pressure = {lowest_point, w, galerkin.nu, coefficients};
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   solution.force = b * solution.pressure.fourier_integral(0).real();
@@ -90,7 +90,7 @@ ExactSolution describe(const ExactScene& scene, const GalerkinPressure& galerkin
     solution.peak_pressure = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 400; ++i)
     solution.peak_pressure =
-        std::max(solution.peak_pressure, solution.pressure(3 * numbers::PI / 2 + w * i / 400.));
+        std::max(solution.peak_pressure, solution.pressure(lowest_point + w * i / 400.));
   return solution;
 }
 
@@ -127,7 +127,7 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
       margin = sequence.empty() ? 0.02 * crossing : std::abs(w - guess) + 1e-8 * w;
       guess = w;
     }
-    sequence.push_back(describe(scene, galerkin, w));
+    sequence.push_back(solution_at(scene, galerkin, w));
   }
   const auto limit = [&](auto member) {
     return Limit(sequence[0].*member, sequence[1].*member, sequence[2].*member);
@@ -159,7 +159,7 @@ ExactSolution solve_exactly(const ExactScene& scene) {
     return without_contact(scene);
   const BesselModes modes(scene.inner_radius, scene.outer_radius, scene.angular_velocity);
   // The law with s = 1/3 holds at distances above (2 e)^(3/2), the one with s = 1/2 below. The
-  // longest series sees distances down to some 1e-4 of the half-width.
+  // longest series resolves distances down to some 1e-4 of the half-width.
   const double crossover = std::pow(2 * margin, 1.5);
   const bool is_critical = crossover < 1e-7 * crossing;
   const bool is_slow = crossover > 0.3 * crossing;

@@ -13,6 +13,16 @@ std::vector<Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degre
   return Polynomials::generate_complete_Lagrange_basis(QGaussLobatto<1>(degree + 1).get_points());
 }
 
+ShapesAtPoint::ShapesAtPoint(const std::vector<Polynomials::Polynomial<double>>& polynomials,
+                             double t) {
+  double both[2];
+  for (const auto& polynomial : polynomials) {
+    polynomial.value(t, 1, both);
+    value.push_back(both[0]);
+    derivative.push_back(both[1]);
+  }
+}
+
 std::vector<double> graded_radii(double begin, double end) {
   const unsigned int n_pieces = std::max(1., std::ceil(std::log2(end / begin) - 1e-12));
   std::vector<double> radii = {begin};

@@ -31,15 +31,15 @@ using Range = std::pair<std::vector<Node>::iterator, std::vector<Node>::iterator
 /// A part of the mesh: lines of coarse cells, or halves, quarters .. of one cell.
 struct Box {
   Place low, high;
-  bool is_closed; ///< whether both angular ends are the seam
+  bool is_closed; ///< true if both angular ends are the seam
 
   double middle(unsigned int direction) const {
     const double sum = low[direction] + high[direction];
     return high[direction] - low[direction] > 1 ? std::floor(sum / 2) : sum / 2;
   }
 
-  /// True if a node is on the line that halves the box. The first line across the ring takes the
-  /// seam with it: alone it would not split the ring.
+  /// True if a node is on the line that halves the box. The first line across the ring includes the
+  /// seam, since one line does not split a ring.
   bool holds_on_line(unsigned int direction, const Node& node) const {
     const double place = node.place[direction];
     return place == middle(direction) ||
@@ -48,8 +48,8 @@ struct Box {
 };
 
 /// How well a line divides nodes: the squared number of those on it, the entries that it adds to
-/// the factor, for each pair of nodes that it parts. Nothing when it only takes away an empty half;
-/// infinite when it would go on to part no nodes.
+/// the factor, for each pair of nodes that it separates. 0 if one half and the line are empty;
+/// infinite if the line separates no nodes.
 double cost(const Box& box, unsigned int direction, const Range& nodes) {
   double below = 0, on = 0, lowest = nodes.first->place[direction], highest = lowest;
   for (auto node = nodes.first; node != nodes.second; ++node) {

@@ -50,9 +50,9 @@ std::vector<double> angles_of(const Scene& scene, int n) {
   const int n_zone = std::clamp<int>(
       std::lround(n * (scene.zone_end - scene.zone_begin) / (2 * numbers::PI)), 1, n - 2);
   // Both sides share the remaining columns, so that mirrored zones have mirrored meshes.
-  const double before = scene.zone_begin - seam_angle, behind = end - scene.zone_end;
+  const double before = scene.zone_begin - seam_angle, after = end - scene.zone_end;
   const int n_before =
-      std::clamp<int>(std::lround((n - n_zone) * before / (before + behind)), 1, n - n_zone - 1);
+      std::clamp<int>(std::lround((n - n_zone) * before / (before + after)), 1, n - n_zone - 1);
   append_equal(angles, seam_angle, scene.zone_begin, n_before);
   append_equal(angles, scene.zone_begin, scene.zone_end, n_zone);
   append_equal(angles, scene.zone_end, end, n - n_zone - n_before);

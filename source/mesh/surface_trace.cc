@@ -9,10 +9,7 @@ SurfaceTrace::SurfaceTrace(const RingSpace& space, const FieldVector& field)
       shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {}
 
 double SurfaceTrace::value(unsigned int face, double t) const {
-  double sum = 0;
-  for (unsigned int k = 0; k < shapes.size(); ++k)
-    sum += nodal_values[edges[face].nodes[k]] * shapes[k].value(t);
-  return sum;
+  return value_and_slope(face, t).value;
 }
 
 SurfaceTrace::ValueAndSlope SurfaceTrace::value_and_slope(unsigned int face, double t) const {

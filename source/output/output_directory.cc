@@ -79,7 +79,7 @@ void remove_files(const fs::path& directory, const Parameters& parameters,
 }
 
 std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameters, bool is_study,
-                                                     bool is_alone) {
+                                                     bool is_one_process) {
   const fs::path directory = parameters.output.directory;
   std::vector<std::string> removed;
   if (read_file(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
@@ -90,7 +90,7 @@ std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameter
       [&](const std::string& name) {
         const auto own = own_files.find(name);
         return !is_study && own != own_files.end() && own->second &&
-               parameters.wants(*own->second) && (is_alone || name != "solution.vtu");
+               parameters.wants(*own->second) && (is_one_process || name != "solution.vtu");
       },
       removed);
   static const std::regex of_one_run(R"(run-\d{3,})");

@@ -97,7 +97,7 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
       << units.after(Quantity::energy_norm) << ", "
       << (std::isfinite(certified.relative) ? "relative " + rounded_up(certified.relative, 3)
                                             : std::string("no relative bound"))
-      << '\n';
+      << "\n           (of the displacement; for the other numbers see Accuracy in doc/manual.md)\n";
   const double outside = std::max(certified.lower_bound - result.energy.value,
                                   result.energy.value - certified.upper_bound);
   if (outside > 0)
@@ -124,12 +124,16 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
   if (contact.patches.size() > 1)
     out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
         << " nodes\n";
-  for (const ContactPatch& patch : contact.patches)
+  for (const ContactPatch& patch : contact.patches) {
     out << "  contact from " << rounded(patch.begin, 6) << " to " << rounded(patch.end, 6)
         << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad,\n    on "
         << rounded(patch.length * units.of(Quantity::length), 5) << units.after(Quantity::length)
-        << " of the road, force " << rounded(patch.force * units.of(Quantity::force), 9)
-        << units.after(Quantity::force) << '\n';
+        << " of the road";
+    if (contact.patches.size() > 1)
+      out << ", force " << rounded(patch.force * units.of(Quantity::force), 9)
+          << units.after(Quantity::force);
+    out << '\n';
+  }
 }
 
 void report_quantities(std::ostream& out, const Result& result, const Units& units) {
@@ -189,8 +193,9 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   const MeshFigures& mesh = result.mesh;
   const double length = units.of(Quantity::length);
   out << "Mesh       Q" << mesh.degree << ", " << mesh.n_cells << " cells, " << mesh.n_unknowns
-      << " unknowns, " << mesh.n_contact_nodes << " contact nodes, h from " << mesh.h_min * length
-      << " to " << mesh.h_max * length << units.after(Quantity::length) << '\n';
+      << " unknowns, " << mesh.n_contact_nodes << " contact nodes, cells from "
+      << mesh.h_min * length << " to " << mesh.h_max * length << units.after(Quantity::length)
+      << '\n';
   if (!result.distance_history.empty())
     report_distances(out, result.distance_history, units);
   // The last distance step has found the contact already.
@@ -206,7 +211,6 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   if (!result.shortfalls.empty())
     out << "Shortfall  " << shortfall_text(result) << '\n';
   report_residuals(out, result);
-  out << std::setprecision(6);
 }
 
 void report_files(std::ostream& out, const WrittenFiles& written) {
@@ -237,7 +241,7 @@ void report_end(std::ostream& out, const RunStatistics& statistics, const Writte
   };
   out << "\nSeconds\n" << std::fixed << std::setprecision(3);
   const double phases = statistics.total_seconds(), total = std::max(phases, seconds_of_process());
-  print("start-up and rest", total - phases);
+  print("start-up (libraries)", total - phases);
   for (const std::string& phase : RunStatistics::phase_names())
     if (const auto seconds = statistics.seconds(phase))
       print(phase, *seconds);

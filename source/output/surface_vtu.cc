@@ -28,7 +28,7 @@ std::string line_vtu(const std::vector<double>& radius, const std::vector<Field>
   DataOutBase::Patch<1, 2> patch;
   patch.reference_cell = ReferenceCells::Line;
   patch.n_subdivisions = n_points - 1;
-  patch.points_are_available = true; // behind the data
+  patch.points_are_available = true; // after the data
   patch.data.reinit(n_fields + 2, n_points);
   std::vector<std::string> names;
   for (const auto& [name, values] : fields) {
@@ -80,7 +80,7 @@ std::string road_vtu(const Scene& scene) {
   for (const auto& [x, y] :
        scene.road.points(2 * std::max(scene.outer_radius, scene.road.distance))) {
     radius.push_back(std::hypot(x, y) * scene.units.length);
-    angles.push_back(1.5 * numbers::PI + std::atan2(x, -y));
+    angles.push_back(lowest_point + std::atan2(x, -y));
   }
   return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
 }

@@ -38,12 +38,13 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
                          const ExactSolution& exact) {
   const Units& units = scene.units;
   TableHandler table;
+  const std::string exact_title = scene.load ? "exact at this distance" : "exact";
   const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
                        double accuracy) {
     const double unit = units.of(quantity);
     table.add_value("quantity", name + units.in_brackets(quantity));
     table.add_value("computed", rounded(ours * unit, 12));
-    table.add_value("exact", rounded(theirs * unit, 12));
+    table.add_value(exact_title, rounded(theirs * unit, 12));
     table.add_value("difference", rounded((ours - theirs) * unit, 3));
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");

@@ -109,7 +109,7 @@ private:
   FEValues<2> values;
   std::vector<double> u;
   std::vector<Tensor<1, 2>> gradients;
-  const unsigned int n_rows; ///< fields, and behind them the places of the points
+  const unsigned int n_rows; ///< fields, then the places of the points
 };
 
 DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
@@ -164,7 +164,7 @@ void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind ki
     write_piece();
     DataOutBase::write_vtu_footer(out);
   } catch (const StandardExceptions::ExcIO&) {
-    // The stream remembers its failure for its owner, who knows the file's name.
+    // The caller checks the stream and names the file.
     if (!out.fail())
       throw;
   }

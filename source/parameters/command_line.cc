@@ -19,7 +19,7 @@ Usage:
 
 Options:
   --verify                    compare the results with the exact solution of the scene
-  --output DIR                the directory for the files, else the file's, or output/FILE
+  --output DIR                output directory instead of Output/Directory
   --set "Section/Key=value"   overrides the file; may be repeated
 
 Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.

@@ -36,6 +36,15 @@ std::string refusal_of(const Setting& setting, const std::string& reason) {
          in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
 }
 
+/// Advice on a number that is followed by a comma or letters; empty for other texts.
+std::string hint_on_number(const std::string& value) {
+  static const std::regex number(R"([+-]?\d[\d.]*([eE][+-]?\d+)?)"),
+      number_and_more(R"([+-]?\d[\d.]* *[,a-zA-Z/].*)");
+  return !std::regex_match(value, number) && std::regex_match(value, number_and_more)
+             ? " (a number has a decimal point and no unit)"
+             : "";
+}
+
 } // namespace
 
 Setting parse_setting(const std::string& text, const std::string& origin) {
@@ -55,9 +64,9 @@ const Setting* last_of(const std::vector<Setting>& settings, const std::string& 
 
 std::string refusal(const std::vector<Setting>& settings, const BadValue& value) {
   if (const Setting* const last = last_of(settings, value.section + '/' + value.key))
-    return refusal_of(*last, value.wanted);
+    return refusal_of(*last, value.reason);
   return "default value: section " + in_quotes(value.section) + ", key " + in_quotes(value.key) +
-         ": " + value.wanted;
+         ": " + value.reason;
 }
 
 void Keys::enter(const std::string& name, unsigned int affects) {
@@ -77,7 +86,9 @@ void Keys::declare(const std::string& name, const std::string& default_value, co
       parse(setting);
     } catch (const BadInput& error) {
       const std::string reason = error.what();
-      throw BadInput(refusal_of(setting, reason.empty() ? "invalid. Expected: " + text : reason));
+      throw BadInput(refusal_of(setting, reason.empty() ? "invalid" + hint_on_number(value) +
+                                                              ". Expected: " + text
+                                                        : reason));
     }
     if (origin)
       settings.push_back(setting);

@@ -141,10 +141,11 @@ void declare_certificate(Keys& keys, CertificateOptions& certificate) {
   keys.add("Error bound", certificate.error_bound, Patterns::Bool(),
            "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
            "with bounds of the energy from both sides; costs at most about another linear solve.");
-  keys.add("Load bounds", certificate.load_bounds, Patterns::Bool(),
-           "\"true\" or \"false\": bound the work-conjugate load G from both sides, by the "
-           "certified energies of two more road distances; costs two more scenes on the last "
-           "mesh.");
+  keys.add(
+      "Load bounds", certificate.load_bounds, Patterns::Bool(),
+      "\"true\" or \"false\": bound the work-conjugate load G, or the distance if G is given, "
+      "from both sides, by the certified energies of further road distances; costs two or more "
+      "scenes on the last mesh.");
 }
 
 void declare_contact(Keys& keys, ContactOptions& contact) {
@@ -183,7 +184,8 @@ void declare_solver(Keys& keys, SolverOptions& solver) {
        {"iterative", SolverKind::iterative}},
       "The linear solver. \"direct\": one sparse Cholesky factorisation for each mesh. "
       "\"iterative\": conjugate gradients with algebraic multigrid, slower but with less memory. "
-      "\"auto\": \"direct\", or \"iterative\" where the factor does not fit into memory.");
+      "\"auto\": \"direct\"; \"iterative\" on several processes, for very many contact nodes and "
+      "when memory is short.");
 }
 
 /// Declares every key: name, variable, range, unit and text, each in one statement.
@@ -209,23 +211,24 @@ struct KeysOfParameters {
 };
 
 /// The last setting of a key of section Road, nullptr without one or for "none".
-const Setting* given(const std::vector<Setting>& settings, const char* key) {
+const Setting* last_unless_none(const std::vector<Setting>& settings, const char* key) {
   const Setting* const last = last_of(settings, std::string("Road/") + key);
   return last && last->value != "none" ? last : nullptr;
 }
 
 [[noreturn]] void refuse_distance_and_load(const std::vector<Setting>& settings) {
   throw BadInput(refusal(settings, BadValue("Road", "Load",
-                                            "a distance and a load are given; leave out "
-                                            "Road/Distance or Road/Load, or set it to none")));
+                                            "a distance and a load are given; leave out one "
+                                            "of them, or set it to none")));
 }
 
 /// The later one of distance and load holds; the other is set to none.
 void KeysOfParameters::set(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings)
     keys.set(setting);
-  const Setting *const distance = given(settings, "Distance"), *const load =
-                                                                   given(settings, "Load");
+  const Setting *const distance = last_unless_none(settings, "Distance"), *const load =
+                                                                              last_unless_none(
+                                                                                  settings, "Load");
   if (!distance && !load && last_of(settings, "Road/Distance"))
     throw BadInput(refusal(settings, BadValue("Road", "Distance", "Road/Load is not given")));
   if (distance && load && distance->origin == load->origin)
@@ -258,7 +261,7 @@ std::vector<Setting> parse_settings(const std::string& text, const std::string& 
   KeysOfParameters read;
   read.keys.read(text, name);
   const std::vector<Setting>& settings = read.parameters.settings;
-  if (given(settings, "Distance") && given(settings, "Load"))
+  if (last_unless_none(settings, "Distance") && last_unless_none(settings, "Load"))
     refuse_distance_and_load(settings);
   return settings;
 }

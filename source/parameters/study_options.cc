@@ -37,14 +37,15 @@ std::string without_quotes(const std::string& text) {
 }
 
 /// The values of "first : last : step", otherwise the text itself, which may be an expression with
-/// a colon.
+/// a colon. @throws BadInput for numbers that are no such range
 std::vector<std::string> values_of(const std::string& text) {
   const auto parts = split(text, ':');
   const Patterns::Double number;
-  if (parts.size() != 3 || !std::all_of(parts.begin(), parts.end(), [&](const std::string& part) {
-        return number.match(part);
-      }))
+  if (parts.size() < 2 || !std::all_of(parts.begin(), parts.end(),
+                                       [&](const std::string& part) { return number.match(part); }))
     return {text};
+  if (parts.size() != 3)
+    throw BadInput(in_quotes(text) + " is no range first : last : step");
   const double first = converted<double>(parts[0], number),
                last = converted<double>(parts[1], number),
                step = converted<double>(parts[2], number);

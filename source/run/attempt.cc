@@ -15,8 +15,7 @@ namespace rollwave {
 
 namespace {
 
-/// Why something failed, in one line. For want of memory there is other advice than the
-/// exception's.
+/// Why something failed, in one line, without the exception's own advice.
 std::string reason_of(const std::exception& failure) {
   if (const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure))
     return shortage->reason;

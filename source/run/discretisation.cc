@@ -8,14 +8,14 @@ namespace rollwave {
 
 using namespace dealii;
 
-StressFunction& MeshCache::dual_of(const Scene& scene, const RingSpace& space,
-                                   RunStatistics& statistics) {
+StressFunction& MeshCache::stress_function_for(const Scene& scene, const RingSpace& space,
+                                               RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "certificate");
-  if (!dual || dual->angular_velocity() != scene.angular_velocity) {
-    dual.reset(); // its memory is free before the next one needs it
-    dual = std::make_unique<StressFunction>(space, scene, stiffness.kind, statistics);
+  if (!stress_function || stress_function->angular_velocity() != scene.angular_velocity) {
+    stress_function.reset(); // frees its memory first
+    stress_function = std::make_unique<StressFunction>(space, scene, stiffness.kind, statistics);
   }
-  return *dual;
+  return *stress_function;
 }
 
 namespace {
@@ -52,7 +52,7 @@ bool Discretisation::refine(const std::vector<double>& indicators, const Scene& 
       return false;
   }
   cache = {};
-  space.reset(); // its memory is free before the next one needs it
+  space.reset(); // frees its memory first
   space = make_space(*triangulation, scene, options, statistics);
   candidates = ContactBoundary(*space, widest_zone);
   return true;

@@ -13,17 +13,13 @@ using namespace dealii;
 namespace {
 
 /// The certified bounds of E at another distance, on the same mesh.
-Bounds certified_energy(const RunOptions& options, const ContactBoundary& candidates,
-                        const MeshSolution& solution, double distance, MeshCache& cache,
-                        RunStatistics& statistics) {
+Bounds certified_energy(const RunOptions& options, Discretisation& mesh,
+                        const MeshSolution& solution, double distance, RunStatistics& statistics) {
   Scene moved = with_distance(solution.scene, distance);
   moved.load.reset();
-  const MeshSolution there =
-      solve_on_mesh(moved, options, candidates, pressure_profile(solution), cache, statistics);
-  const CertifiedError error =
-      certify(there.boundary, moved, there.problem, there.contact, there.displacement,
-              cache.force.get(), cache.dual_of(moved, candidates.space(), statistics), statistics)
-          .error;
+  const MeshSolution there = solve_on_mesh(moved, options, mesh.candidates,
+                                           pressure_profile(solution), mesh.cache, statistics);
+  const CertifiedError error = certify(there, mesh.cache, statistics).error;
   return {error.lower_bound, error.upper_bound};
 }
 
@@ -37,11 +33,10 @@ double best_step(const Scene& scene, const CertifiedError& error, double stiffne
 
 } // namespace
 
-Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
-                  const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
-                  RunStatistics& statistics) {
+Bounds bound_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
+                  const CertifiedError& error, RunStatistics& statistics) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, candidates, solution, distance, cache, statistics);
+    return certified_energy(options, mesh, solution, distance, statistics);
   };
   const double c = solution.scene.road.distance;
   const double step =
@@ -51,11 +46,11 @@ Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
           (near.upper - error.lower_bound) / step};
 }
 
-std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
+std::optional<Bounds> bound_distance(const RunOptions& options, Discretisation& mesh,
                                      const MeshSolution& solution, const CertifiedError& error,
-                                     MeshCache& cache, RunStatistics& statistics) {
+                                     RunStatistics& statistics) {
   const auto energy = [&](double distance) {
-    return certified_energy(options, candidates, solution, distance, cache, statistics);
+    return certified_energy(options, mesh, solution, distance, statistics);
   };
   const double c = solution.scene.road.distance, load = solution.scene.load->value;
   for (double step =

@@ -39,11 +39,10 @@ std::vector<SurfacePoint> tabulate_surface(const ContactBoundary& boundary,
   const RingSpace& space = boundary.space();
   const std::vector<double> values = space.surface_values(field);
   std::vector<SurfacePoint> points;
-  for (unsigned int i = 0; i < values.size(); ++i)
-    points.push_back({space.surface_nodes()[i].angle, values[i], 0});
-  for (unsigned int i = 0; i < values.size(); ++i)
-    if (const auto node = boundary.contact_number(i))
-      points[i].pressure = pressure(*node);
+  for (unsigned int i = 0; i < values.size(); ++i) {
+    const auto node = boundary.contact_number(i);
+    points.push_back({space.surface_nodes()[i].angle, values[i], node ? pressure(*node) : 0.});
+  }
   return points;
 }
 

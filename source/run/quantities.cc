@@ -19,7 +19,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A number of an optional part of a result; nullopt without that part.
 template <typename Part>
-auto of(std::optional<Part> Result::*part, double Part::*number) {
+auto optional_member(std::optional<Part> Result::*part, double Part::*number) {
   return [part, number](const Result& result) {
     return result.*part ? std::optional((*(result.*part)).*number) : std::nullopt;
   };
@@ -27,7 +27,7 @@ auto of(std::optional<Part> Result::*part, double Part::*number) {
 
 /// The same where the number is optional too.
 template <typename Part>
-auto of(std::optional<Part> Result::*part, std::optional<double> Part::*number) {
+auto optional_member(std::optional<Part> Result::*part, std::optional<double> Part::*number) {
   return [part, number](const Result& result) {
     return result.*part ? (*(result.*part)).*number : std::nullopt;
   };
@@ -65,17 +65,16 @@ Quantities load_quantities() {
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.force; }},
-      {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force,
-       Shown::screen | Shown::curve, all_digits,
-       [](const Result& r) { return r.contact.work_conjugate_load; }},
+      {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force, Shown::screen,
+       all_digits, [](const Result& r) { return r.contact.work_conjugate_load; }},
       {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
-       Quantity::force, 0, all_digits, of(&Result::load_bounds, &Bounds::lower)},
+       Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::lower)},
       {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
-       Quantity::force, 0, all_digits, of(&Result::load_bounds, &Bounds::upper)},
+       Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::upper)},
       {"contact.distance_lower_bound", "guaranteed lower bound of c", "", Quantity::length, 0,
-       all_digits, of(&Result::distance_bounds, &Bounds::lower)},
+       all_digits, optional_member(&Result::distance_bounds, &Bounds::lower)},
       {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
-       all_digits, of(&Result::distance_bounds, &Bounds::upper)},
+       all_digits, optional_member(&Result::distance_bounds, &Bounds::upper)},
       {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
        Shown::screen | Shown::curve, 4,
        [](const Result& r) { return r.contact.stiffness.vertical; }},
@@ -98,7 +97,8 @@ Quantities contact_quantities() {
        [](const Result& r) { return r.contact.ends ? r.contact.ends->first : not_known; }},
       {"contact.right_end", "end of the last patch", "", Quantity::angle, 0, all_digits,
        [](const Result& r) { return r.contact.ends ? r.contact.ends->second : not_known; }},
-      {"contact.length", "length of the road in contact", "", Quantity::length, 0, all_digits,
+      {"contact.length", "length of the road in contact", "", Quantity::length, Shown::curve,
+       all_digits,
        [](const Result& r) {
          double length = 0;
          for (const ContactPatch& patch : r.contact.patches)
@@ -119,16 +119,17 @@ Quantities energy_quantities() {
       {"energy.norm_squared", "a(u_h, u_h)", "", Quantity::energy, 0, all_digits,
        [](const Result& r) { return r.energy.norm_squared; }},
       {"energy.lower_bound", "guaranteed lower bound of J(u)", "", Quantity::energy, 0, all_digits,
-       of(&Result::certified, &CertifiedError::lower_bound)},
+       optional_member(&Result::certified, &CertifiedError::lower_bound)},
       {"energy.upper_bound", "guaranteed upper bound of J(u)", "", Quantity::energy, 0, all_digits,
-       of(&Result::certified, &CertifiedError::upper_bound)},
+       optional_member(&Result::certified, &CertifiedError::upper_bound)},
       {"error.certified_energy_norm", "guaranteed bound of the error in the energy norm", "",
-       Quantity::energy_norm, 0, 3, of(&Result::certified, &CertifiedError::energy_norm)},
+       Quantity::energy_norm, 0, 3,
+       optional_member(&Result::certified, &CertifiedError::energy_norm)},
       {"error.certified_relative", "guaranteed bound of the relative error", "certified",
        Quantity::number, Shown::table | Shown::orders | Shown::upper_bound, 3,
-       of(&Result::certified, &CertifiedError::relative)},
+       optional_member(&Result::certified, &CertifiedError::relative)},
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
-       0, 3, of(&Result::certified, &CertifiedError::force_data)},
+       0, 3, optional_member(&Result::certified, &CertifiedError::force_data)},
       {"error.force_sampled_width", "features of the force that are smaller may be undetected", "",
        Quantity::length, 0, 3,
        [](const Result& r) -> std::optional<double> {
@@ -148,20 +149,21 @@ Quantities error_quantities() {
   };
   return {
       {"error.exact_energy_norm", "true error in the energy norm", "", Quantity::energy_norm, 0, 3,
-       if_resolved(of(&Result::errors, &TrueErrors::energy_norm))},
+       if_resolved(optional_member(&Result::errors, &TrueErrors::energy_norm))},
       {"error.exact_relative", "true relative error in the energy norm", "error", Quantity::number,
        Shown::table | Shown::orders, 3,
-       if_resolved(of(&Result::errors, &TrueErrors::relative_energy_norm))},
+       if_resolved(optional_member(&Result::errors, &TrueErrors::relative_energy_norm))},
       {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,
-       of(&Result::errors, &TrueErrors::l2_norm)},
+       optional_member(&Result::errors, &TrueErrors::l2_norm)},
       {"error.exact_pressure", "true error of the pressure in the norm of [.,.]_h", "pressure",
-       Quantity::pressure_norm, Shown::orders, 3, of(&Result::errors, &TrueErrors::pressure)},
+       Quantity::pressure_norm, Shown::orders, 3,
+       optional_member(&Result::errors, &TrueErrors::pressure)},
       {"error.exact_force", "true error of F", "error of F", Quantity::force, Shown::orders, 3,
-       of(&Result::errors, &TrueErrors::force)},
+       optional_member(&Result::errors, &TrueErrors::force)},
       {"error.exact_energy", "true error of J", "", Quantity::energy, 0, 3,
-       of(&Result::errors, &TrueErrors::energy)},
+       optional_member(&Result::errors, &TrueErrors::energy)},
       {"error.exact_half_width", "true error of the half-width", "", Quantity::angle, 0, 3,
-       of(&Result::errors, &TrueErrors::half_width)},
+       optional_member(&Result::errors, &TrueErrors::half_width)},
       {"error.exact_distance", "true error of the distance for a given load", "", Quantity::length,
        0, 3,
        [](const Result& r) -> std::optional<double> {
@@ -171,11 +173,11 @@ Quantities error_quantities() {
        }},
       {"error.exact_feasible_energy_norm", "true error of the feasible displacement", "",
        Quantity::energy_norm, 0, 3,
-       if_resolved(of(&Result::errors, &TrueErrors::admissible_energy_norm))},
+       if_resolved(optional_member(&Result::errors, &TrueErrors::admissible_energy_norm))},
       {"error.effectivity", "bound over the error that the energies give", "", Quantity::number, 0,
-       3, of(&Result::errors, &TrueErrors::effectivity)},
+       3, optional_member(&Result::errors, &TrueErrors::effectivity)},
       {"error.expected_order", "expected order of the energy norm in N^(-1/2)", "",
-       Quantity::number, 0, 3, of(&Result::errors, &TrueErrors::expected_order)},
+       Quantity::number, 0, 3, optional_member(&Result::errors, &TrueErrors::expected_order)},
   };
 }
 

@@ -40,15 +40,14 @@ bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
 }
 
 /// On contact that ends where the zone does, other than at the tangent of a drum.
-std::string remark_on_zone_ends(const RunOptions& options, const Scene& scene,
-                                const Result& result) {
+std::string remark_on_zone_ends(const Scene& scene, const Result& result) {
   const auto& ends = result.contact.ends;
   const double tangent = scene.road.tangent_angle();
   const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
-  if (!ends || scene.is_whole_circle() || zone_ends_at_tangent ||
+  if (!ends || zone_ends_at_tangent ||
       (ends->first != scene.zone_begin && ends->second != scene.zone_end))
     return {};
-  return options.road.contact_zone
+  return scene.has_given_zone
              ? "the zone cuts the contact short: the pressure is unbounded at its end, where "
                "peak_pressure grows with each refinement"
              : "contact reaches the end of the automatic zone, where phi = b; give a wider "
@@ -56,17 +55,16 @@ std::string remark_on_zone_ends(const RunOptions& options, const Scene& scene,
 }
 
 /// On a surface that lies in the road outside of a zone that the user has given.
-std::string remark_on_depth_outside(const RunOptions& options, const Scene& scene,
-                                    const Result& result) {
+std::string remark_on_depth_outside(const Scene& scene, const Result& result) {
   const double depth = depth_outside(scene, result) / scene.outer_radius;
-  if (!options.road.contact_zone || !(depth > 1e-9))
+  if (!scene.has_given_zone || !(depth > 1e-9))
     return {};
   return "outside of the zone, where contact is not considered, the surface penetrates the road "
          "by " +
          rounded(depth, 2) + " b; give a wider Road/Contact zone";
 }
 
-/// On a certificate that says nothing.
+/// On a relative bound of 1 or more.
 std::string remark_on_certificate(const RunOptions& options, const Result& result) {
   if (!result.certified || result.certified->relative < 1)
     return {};
@@ -113,9 +111,9 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
   const Scene& scene = solution.scene;
   std::vector<std::string> remarks;
   for (const std::string& remark :
-       {remark_on_zone_ends(options, scene, result),
-        remark_on_depth_outside(options, scene, result), remark_on_certificate(options, result),
-        remark_on_resolution(solution, result), remark_on_displacement(scene, result)})
+       {remark_on_zone_ends(scene, result), remark_on_depth_outside(scene, result),
+        remark_on_certificate(options, result), remark_on_resolution(solution, result),
+        remark_on_displacement(scene, result)})
     if (!remark.empty())
       remarks.push_back(remark);
   return remarks;
@@ -138,7 +136,7 @@ std::string missing_error_text(const RunOptions& options, const Result& result,
 std::string residual_text(const Residuals& residuals) {
   return "the conditions of contact and equilibrium hold to " + rounded(residuals.largest(), 6) +
          " only, wanted " + rounded(wanted_residual, 6) +
-         ": use fewer unknowns, cells that are less stretched, or a hub that is less small";
+         ": use fewer unknowns, cells that are less stretched, or a larger hub";
 }
 
 } // namespace rollwave

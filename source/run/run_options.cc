@@ -38,8 +38,7 @@ RunOptions coarser(RunOptions options) {
     }
   mesh.adaptive_cycles = 0;
   mesh.wanted_relative_error = 0;
-  options.certificate = {};
-  options.certificate.error_bound = false;
+  options.certificate = {/*error_bound=*/false, /*load_bounds=*/false};
   return options;
 }
 

@@ -34,23 +34,19 @@ namespace {
 std::optional<Certificate> certify_solution(const RunOptions& options, Discretisation& mesh,
                                             MeshSolution& solution, RunStatistics& statistics) {
   std::optional<Certificate> certificate;
-  const auto compute = [&] {
-    certificate = certify(solution.boundary, solution.scene, solution.problem, solution.contact,
-                          solution.displacement, mesh.cache.force.get(),
-                          mesh.cache.dual_of(solution.scene, *mesh.space, statistics), statistics);
-  };
   if (options.certificate.error_bound)
-    attempt(compute, "the error could not be certified",
+    attempt([&] { certificate = certify(solution, mesh.cache, statistics); },
+            "the error could not be certified",
             "use fewer unknowns, or set Certificate/Error bound to false", mesh.communicator(),
             solution.shortfalls);
   return certificate;
 }
 
 /// eta_K of each active cell: its share of the bound or, without a bound, Kelly's indicator.
-std::vector<double> indicate(const RunOptions& options, const Discretisation& mesh,
-                             const MeshSolution& solution,
-                             const std::optional<Certificate>& certificate,
-                             RunStatistics& statistics) {
+std::vector<double> cell_indicators(const RunOptions& options, const Discretisation& mesh,
+                                    const MeshSolution& solution,
+                                    const std::optional<Certificate>& certificate,
+                                    RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "indicator");
   switch (certificate ? options.mesh.indicator : Indicator::kelly) {
   case Indicator::certificate:
@@ -62,7 +58,7 @@ std::vector<double> indicate(const RunOptions& options, const Discretisation& me
 }
 
 /// sqrt(sum eta_K^2) over the cells of all processes.
-double total(const std::vector<double>& indicators, MPI_Comm communicator) {
+double l2_norm(const std::vector<double>& indicators, MPI_Comm communicator) {
   const double squared =
       std::inner_product(indicators.begin(), indicators.end(), indicators.begin(), 0.);
   return std::sqrt(Utilities::MPI::sum(squared, communicator));
@@ -108,18 +104,16 @@ std::string interrupted_text(unsigned int n_meshes) {
 }
 
 /// Bounds the work-conjugate load or, where that is given, the distance.
-void enclose_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
-                  const CertifiedError& error, RunStatistics& statistics, Result& result) {
+void add_load_bounds(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
+                     const CertifiedError& error, RunStatistics& statistics, Result& result) {
   const auto& load = solution.scene.load;
   if (solution.scene.road.is_convex())
     result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
                              "least energy need not be convex in the distance");
   else if (!load)
-    result.load_bounds =
-        bound_load(options, mesh.candidates, solution, error, mesh.cache, statistics);
+    result.load_bounds = bound_load(options, mesh, solution, error, statistics);
   else if (load->kind == LoadKind::work_conjugate)
-    result.distance_bounds =
-        bound_distance(options, mesh.candidates, solution, error, mesh.cache, statistics);
+    result.distance_bounds = bound_distance(options, mesh, solution, error, statistics);
   else
     result.remarks.push_back("the distance can be enclosed only where Road/Load kind is "
                              "work-conjugate");
@@ -152,7 +146,7 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
     result.certified = certificate->error;
   add_shortfalls_and_remarks(options, mesh, last, certificate, result);
   if (options.certificate.load_bounds && certificate && !is_interrupted)
-    attempt([&] { enclose_load(options, mesh, last, certificate->error, statistics, result); },
+    attempt([&] { add_load_bounds(options, mesh, last, certificate->error, statistics, result); },
             "the load could not be enclosed",
             "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
             result.shortfalls);
@@ -183,8 +177,8 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     if (!ends && !is_stopped) {
       scene = solution.scene;
       pressure = pressure_profile(solution);
-      const auto indicators = indicate(options, mesh, solution, certificate, statistics);
-      cycles.back().indicated = total(indicators, mesh.communicator());
+      const auto indicators = cell_indicators(options, mesh, solution, certificate, statistics);
+      cycles.back().indicated = l2_norm(indicators, mesh.communicator());
       if (mesh.refine(indicators, scene, options, statistics)) {
         if (progress.mesh_solved)
           progress.mesh_solved(cycles.size(), cycles.back());
@@ -213,8 +207,8 @@ struct Start {
   PressureProfile pressure;
 };
 
-/// Solves on a coarser mesh. The scene as it is, without a pressure, where that is too coarse, such
-/// as for a short zone.
+/// Solves on a coarser mesh. If that fails, such as for a short zone, returns the scene unchanged
+/// and no pressure.
 Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                     RunStatistics& statistics) {
   try {
@@ -223,8 +217,6 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
     const MeshSolution solution =
         solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, statistics);
     return {solution.scene, pressure_profile(solution)};
-  } catch (const Interrupted&) {
-    throw;
   } catch (const BadInput&) {
     return {scene, {}};
   } catch (const NotSolved&) {
@@ -237,7 +229,6 @@ Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm comm
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
                   RunStatistics statistics, const Progress& progress) {
   const MPI_Comm communicator = mesh.communicator();
-  check_simulation(options, count_processes(communicator));
   Start start = {scene, {}};
   if (begins_coarser(options, communicator))
     start = solve_coarser(scene, options, communicator, statistics);

@@ -17,7 +17,7 @@ using namespace dealii;
 
 namespace {
 
-/// part / whole, where a part of nothing is nothing.
+/// part / whole; 0 if part is 0.
 double relative(double part, double whole) {
   return part == 0 ? 0 : part / whole;
 }
@@ -47,12 +47,12 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
           relative(force_times_gap, force_times_road)};
 }
 
-/// @throws NotSolved where squares of such numbers overflow or there is none
+/// @throws NotSolved if @p squared is not finite
 void require_finite(double squared, const std::string& what) {
   if (!std::isfinite(squared))
     throw NotSolved(what +
-                    " overflows double precision: change Cylinder/Radial force or the radii, "
-                    "which must not be too close to each other either");
+                    " overflows double precision: change Cylinder/Radial force, or choose radii "
+                    "that differ more");
 }
 
 /// Makes the force and the load of @p cache those of the scene.
@@ -187,6 +187,13 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
   solution.residuals = measure_residuals(boundary, solution.problem, solution.contact,
                                          std::move(stiffness_times_u), cache.load);
   return solution;
+}
+
+Certificate certify(const MeshSolution& solution, MeshCache& cache, RunStatistics& statistics) {
+  StressFunction& stress_function =
+      cache.stress_function_for(solution.scene, solution.boundary.space(), statistics);
+  return certify(solution.boundary, solution.scene, solution.problem, solution.contact,
+                 solution.displacement, cache.force.get(), stress_function, statistics);
 }
 
 } // namespace rollwave

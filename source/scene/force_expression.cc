@@ -42,12 +42,8 @@ private:
   std::streambuf* original;
 };
 
-} // namespace
-
-namespace {
-
-/// Why @p expression is no function of r and z although the parser would give it a value: of "1,5"
-/// the last part, 5, of "3;" the first. Empty where it would not.
+/// The reason why the parser would misread @p expression: it takes 5 from "1,5" and 3 from "3;".
+/// Empty if there is none.
 std::string misunderstanding(const std::string& expression) {
   int depth = 0;
   for (std::size_t i = 0; i < expression.size(); ++i) {

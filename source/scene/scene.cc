@@ -46,8 +46,10 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
     refuse("Angular velocity",
            text("it must be at most the critical speed (mu/rho)^(1/2)/b = ", critical,
-                ", beyond which the problem is not elliptic; Material/Shear "
-                "modulus and Density must be in consistent units"));
+                ", beyond which the problem is not elliptic",
+                material.is_given()
+                    ? "; Material/Shear modulus and Density must be in consistent units"
+                    : "; without section Material, mu and rho are 1"));
 }
 
 void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double c) {
@@ -72,7 +74,7 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
   if (road.curvature < 0 && -1 / road.curvature <= std::max(b, c))
     refuse("Curvature", text("the road is the inside of a drum of the radius ", -1 / road.curvature,
                              ", which must be larger than the cylinder and the distance"));
-  // The axle sees a drum of the radius 1/kappa under an angle of about 1 / (kappa b). Angles of a
+  // Seen from the axle, a drum has an angle of about 1 / (kappa b). Angles of a
   // mesh are known to angular_round_off, which must stay below a thousandth of that.
   const double most_curvature = 1e-3 / angular_round_off / b;
   if (road.curvature > most_curvature)
@@ -91,8 +93,8 @@ double possible_half_width(const Scene& scene, unsigned int angular_cells) {
     limit = std::min(b, scene.force.uniform.value_or(0) * contact_free_unit_displacement(a, b, b));
     margin = 4 * numbers::PI / angular_cells;
   }
-  // With a given load, the nearest road is touched the most, except inside of a drum that the
-  // surface can fill: there the top touches as soon as both have the same axis.
+  // For a given load, the nearest road has the widest contact. Inside of a drum that the surface
+  // can fill, all of the surface can touch.
   if (scene.load && b + limit >= scene.road.greatest_distance())
     return numbers::PI;
   const Road road = scene.load ? scene.road.at(scene.least_distance) : scene.road;
@@ -142,7 +144,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.units = {unit, material};
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
-  // Not beyond 1/b by what check_cylinder() forgives, so that alpha(b) >= 0.
+  // check_cylinder() tolerates round-off above 1/b. Without it alpha(b) >= 0.
   scene.angular_velocity =
       std::min(cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity),
                1 / scene.outer_radius);
@@ -159,8 +161,8 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
     scene.zone_end = zone->second;
   } else {
     const double half_width = possible_half_width(scene, angular_cells);
-    scene.zone_begin = 3 * numbers::PI / 2 - half_width;
-    scene.zone_end = 3 * numbers::PI / 2 + half_width;
+    scene.zone_begin = lowest_point - half_width;
+    scene.zone_end = lowest_point + half_width;
   }
   return scene;
 }

@@ -74,10 +74,10 @@ struct BoomerAmg::Hypre {
       source.ExtractMyRowView(i, n_all, all_values, all_columns);
       columns.clear();
       values.clear();
-      const bool is_alone = pinned.is_element(rows[i]);
+      const bool is_row_pinned = pinned.is_element(rows[i]);
       for (int k = 0; k < n_all; ++k)
         if (const int column = column_numbers[all_columns[k]];
-            column == rows[i] || !(is_alone || is_pinned[all_columns[k]])) {
+            column == rows[i] || !(is_row_pinned || is_pinned[all_columns[k]])) {
           columns.push_back(column);
           values.push_back(all_values[k]);
         }

@@ -99,9 +99,8 @@ ContactState IterativeSolver::derivative(const std::vector<bool>& pinned,
 FieldVector IterativeSolver::displacement_field(const ContactState& state) {
   if (boundary.contact_values(field) !=
       state.displacement) { // it is not the state of the last solve
-    constexpr double accuracy = 1e-11;
     ContactState same = state;
-    solve(std::vector<bool>(state.displacement.size(), true), same, accuracy);
+    solve(std::vector<bool>(state.displacement.size(), true), same, final_accuracy);
   }
   FieldVector u = field;
   space.constraints().distribute(u);

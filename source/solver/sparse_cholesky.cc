@@ -61,10 +61,9 @@ void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& stati
   constexpr double dense_matrices = 3; // of the last nodes: L_cc, S, and a block of S factorised
   const double n_entries =
       cholesky->n_factor_entries() + dense_matrices * last.size() * last.size();
-  require_memory(sizeof(double) * n_entries,
-                 last.empty() ? "the factor of the dual problem"
-                              : "the factor of the stiffness matrix with " +
-                                    std::to_string(last.size()) + " contact nodes");
+  require_memory(sizeof(double) * n_entries, "the factor for " + std::to_string(cholesky->size()) +
+                                                 " unknowns with " + std::to_string(last.size()) +
+                                                 " contact nodes");
 }
 
 void SparseCholesky::factorise(RunStatistics& statistics) {

@@ -80,7 +80,7 @@ void print_errors(std::ostream& out, const Study& study, const std::vector<unsig
         table.add_value(title,
                         error.shown & Shown::upper_bound ? std::stod(rounded_up(value, 4)) : value);
       }
-      table.set_precision(title, 3); // behind the first digit
+      table.set_precision(title, 3); // after the first digit
       table.set_scientific(title, true);
       table.evaluate_convergence_rates(title, "unknowns",
                                        dealii::ConvergenceTable::reduction_rate_log2, 2);
@@ -94,7 +94,7 @@ void print_fits(std::ostream& out, const Study& study, std::vector<unsigned int>
   constexpr std::size_t most_meshes = 4;
   meshes.erase(meshes.begin(), meshes.end() - std::min(most_meshes, meshes.size()));
   const auto expected = study.value(meshes.back(), "error.expected_order");
-  std::string separator = "Fitted: ";
+  std::string separator = "Fitted, +- standard error: ";
   for (const ResultQuantity& error : errors()) {
     const std::string &name = error.name, title = error.symbol;
     if (is_known(study, meshes, name)) {

@@ -50,10 +50,10 @@ std::string key_fields(const RunPlan& plan) {
   return fields;
 }
 
-/// The run of the fields behind those by which runs differ.
+/// The run of the fields after those by which runs differ.
 StudyRun read_run(const std::vector<std::string>& fields, std::size_t n_key_fields) {
   StudyRun run;
-  auto field = fields.begin() + n_key_fields + 2; // behind solved and published_steps
+  auto field = fields.begin() + n_key_fields + 2; // after solved and published_steps
   run.reference = *field++;
   run.failure = *field++;
   run.remarks = split(*field++, '|');

@@ -42,6 +42,17 @@ std::vector<double> numbers_of(const Study& study, unsigned int key) {
   return numbers;
 }
 
+/// The key that varies fastest: the first of the last part of Study/Vary, which must not be empty.
+const Setting& fastest_key(const Study& study, const RunPlan& plan) {
+  return plan.varied[study.first_key_of_part.back()];
+}
+
+/// The numbers of the key that varies fastest, without entries where it has none.
+std::vector<double> fastest_numbers(const Study& study) {
+  return study.first_key_of_part.empty() ? std::vector<double>()
+                                         : numbers_of(study, study.first_key_of_part.back());
+}
+
 /// True for the keys of the scene, false for those of the method.
 bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
@@ -73,7 +84,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
   std::vector<Curve> curves;
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
-    const Setting* const last = &plan.varied[study.first_key_of_part.back()];
+    const Setting* const last = &fastest_key(study, plan);
     const std::string title =
         label(plan, [last](const Setting& setting) { return &setting < last; });
     // The keys before them change together with the text.
@@ -87,7 +98,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
 }
 
 std::string x_label_of(const Study& study) {
-  return axis_label(study.plans.front().varied[study.first_key_of_part.back()], study.units());
+  return axis_label(fastest_key(study, study.plans.front()), study.units());
 }
 
 /// The values of a quantity in all runs.
@@ -105,7 +116,7 @@ std::string label_of(const Study& study, const ResultQuantity& quantity) {
 
 /// A panel for each quantity that is drawn over the last part of Study/Vary. The vertical load is
 /// drawn over the deflection if that varies.
-std::vector<Panel> curves(const Study& study, const std::vector<double>& x) {
+std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x) {
   const ResultQuantity& deflection = result_quantity("scene.deflection");
   const bool has_deflections = study.varies(deflection.name);
   std::vector<Panel> panels;
@@ -164,15 +175,15 @@ std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double
   return runs;
 }
 
-Panel profiles(const Study& study, const std::vector<double>& x) {
-  Panel panel{"angle from the lowest point, (z - 3π/2) / rad",
+Panel profile_panel(const Study& study, const std::vector<double>& x) {
+  Panel panel{"angle from the lowest point / rad",
               "contact pressure" + study.units().in_brackets(Quantity::pressure),
               {}};
   for (const unsigned int run : runs_to_show(study, x))
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(z - 3 * numbers::PI / 2, pressure);
+        panel.curves.back().points.emplace_back(from_lowest_point(z), pressure);
     }
   return panel;
 }
@@ -207,15 +218,14 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
     if (!panels.front().curves.empty())
       draw(plot_panels(title + remark, panels), directory, name, written);
   };
-  const auto x = study.first_key_of_part.empty()
-                     ? std::vector<double>()
-                     : numbers_of(study, study.first_key_of_part.back());
+  const auto x = fastest_numbers(study);
+  const bool is_over_method = !x.empty() && !is_of_scene(fastest_key(study, study.plans.front()));
   if (const auto map = map_of_load(study))
     draw(*map, directory, "study-map", written);
-  if (x.empty() || is_of_scene(study.plans.front().varied[study.first_key_of_part.back()])) {
+  if (!is_over_method) {
     if (!x.empty())
-      add("study-curves", curves(study, x));
-    const Panel panel = profiles(study, x);
+      add("study-curves", curve_panels(study, x));
+    const Panel panel = profile_panel(study, x);
     const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
     add("study-profiles", {panel},
         n_shown == n_runs
@@ -232,8 +242,6 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
           {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
-  const bool is_over_method =
-      !x.empty() && !is_of_scene(study.plans.front().varied[study.first_key_of_part.back()]);
   if (!x.empty() && (is_over_method || study.has("published_steps")) &&
       study.varies("iterations.contact"))
     add("study", {{x_label_of(study), "contact steps",
@@ -243,9 +251,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
 /// time.
 std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
-  const auto times = study.first_key_of_part.empty()
-                         ? std::vector<double>()
-                         : numbers_of(study, study.first_key_of_part.back());
+  const auto times = fastest_numbers(study);
   std::vector<std::pair<double, std::string>> files;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     for (const char* const name : {"solution.vtu", "solution.pvtu"})

@@ -21,7 +21,7 @@ std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
 }
 
-/// @p text with at most four digits behind the points of its numbers, as legends have room for.
+/// @p text with at most four decimal digits in its numbers, as legends have room for.
 std::string with_short_numbers(std::string text) {
   static const std::regex long_number(R"(\d+\.\d{5,}(e[+-]?\d+)?)");
   std::string shortened;

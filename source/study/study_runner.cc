@@ -99,7 +99,7 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
   if (n_earlier > 0)
     out << n_earlier << " of " << study.runs.size() << " runs are reused from study.csv\n";
   if (is_first) {
-    write_tables(study, directory); // first: with the parameters of another study it is not read
+    write_tables(study, directory); // before parameters.prm, which marks them as this study's
     WrittenFiles written;
     write_parameters(directory, parameters, written);
   }

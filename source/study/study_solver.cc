@@ -69,7 +69,7 @@ StudyRun StudySolver::solve(unsigned int number) {
     run.failure = refusal.what();
   } catch (const std::bad_alloc&) {
     if (!is_serial(communicator))
-      throw; // the others do not know
+      throw; // the other processes would wait
     run.failure = NotEnoughMemory().what();
   }
   if (!run.is_solved())
@@ -78,9 +78,9 @@ StudyRun StudySolver::solve(unsigned int number) {
 }
 
 /// Solves a run whose time is compared with others. A short one is solved three times and the
-/// fastest counts: the first pays for pages of memory and for threads that wake up.
+/// fastest counts: the first includes page faults and the start of threads.
 Solution StudySolver::solve_timed(const RunPlan& plan) {
-  solution.reset(); // before the next one needs its memory
+  solution.reset(); // frees its memory first
   const Scene scene = make_scene(plan.parameters);
   const auto seconds = [this](const Solution& solution) {
     return Utilities::MPI::max(solution.result.statistics.total_seconds(), communicator);
@@ -103,7 +103,7 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
     mesh = std::move(solution->mesh);
     run.shared = "mesh";
   }
-  solution.reset();  // before the next one needs its memory
+  solution.reset();  // frees its memory first
   last_mesh.reset(); // a run that fails leaves nothing
   const auto zone = widest_zone.find(key);
   if (zone == widest_zone.end())
@@ -125,8 +125,7 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
     throw Interrupted(shortfall_text(result));
   if (study.study.true_errors)
     if (const auto& exact = exact_solution(plan, solution->scene)) {
-      result.errors = measure_true_errors(solution->space(), solution->displacement, result,
-                                          solution->certificate, *exact);
+      result.errors = measure_true_errors(*solution, *exact);
       if (solution->scene.load)
         result.errors->exact_distance = exact_distance(plan, solution->scene);
       if (result.errors->is_resolved)

@@ -21,8 +21,8 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
   };
   if (scene.force.is_expression())
     return give_up("Cylinder/Radial force is not constant");
-  const double left = 3 * numbers::PI / 2 - scene.zone_begin;
-  const double right = scene.zone_end - 3 * numbers::PI / 2;
+  const double left = lowest_point - scene.zone_begin;
+  const double right = scene.zone_end - lowest_point;
   const double narrow = std::min(left, right);
   if (narrow <= 0)
     return give_up("Road/Contact zone leaves out the lowest point");

@@ -171,9 +171,10 @@ double pressure_distance_squared(const ExactSolution& exact, const Result& resul
 
 } // namespace
 
-TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
-                               const Result& result, const std::optional<Certificate>& certificate,
-                               const ExactSolution& exact) {
+TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& exact) {
+  const RingSpace& space = solution.space();
+  const FieldVector& field = solution.displacement;
+  const Result& result = solution.result;
   const bool is_cut = exact.end_exponent < 0;
   const double floor = (is_cut ? 1e-5 : 5e-6) * std::sqrt(exact.norm_squared);
   const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
@@ -193,7 +194,7 @@ TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
   const bool is_uniform = !space.dof_handler().get_triangulation().has_hanging_nodes();
   errors.expected_order = !is_uniform ? degree : is_cut ? 0.5 : std::min(degree, 1.5);
   errors.is_resolved = errors.energy_norm >= floor;
-  if (certificate) {
+  if (const auto& certificate = solution.certificate) {
     const CertifiedError& certified = certificate->error;
     const double work_of_feasible = certificate->work_of_force;
     const double energy = certified.norm_squared / 2 - work_of_feasible;

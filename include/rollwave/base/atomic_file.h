@@ -8,8 +8,8 @@ namespace rollwave {
 
 /**
  * A file that is either complete or absent: it is written next to its place, under a name that no
- * other run uses, and moved there by commit(). Without commit() nothing remains, unless the process
- * is killed: then a file whose name ends in .part does.
+ * other run uses, and moved there by commit(). Without commit() no file remains. A killed process
+ * may leave one that ends in .part.
  */
 class AtomicFile {
 public:

@@ -10,13 +10,13 @@ struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value of a key is not admitted. The parameters know where it was set.
+/// The value of a key is not allowed. refusal() adds the place where it was set.
 struct BadValue : BadInput {
-  BadValue(const std::string& section, const std::string& key, const std::string& wanted)
-      : BadInput(section + "/" + key + ": " + wanted), section(section), key(key), wanted(wanted) {}
+  BadValue(const std::string& section, const std::string& key, const std::string& reason)
+      : BadInput(section + "/" + key + ": " + reason), section(section), key(key), reason(reason) {}
 
   std::string section, key;
-  std::string wanted; ///< what is admitted, or why the value is not
+  std::string reason; ///< what is allowed, or why the value is not
 };
 
 /// The scene could not be solved to what was wanted; exit code 2. The text says what was reached,

@@ -7,7 +7,7 @@
 namespace rollwave {
 
 /// Starts MPI if it does not run yet, and keeps it until the program ends. Trilinos' matrices need
-/// MPI on one process as well: their owner has a member of this type before them.
+/// MPI on one process as well: declare a member of this type before them.
 struct MpiSession {
   MpiSession();
 };

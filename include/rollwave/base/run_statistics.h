@@ -62,7 +62,7 @@ private:
 };
 
 /// Wall seconds since this process has started, with the loading of its libraries, which takes
-/// longer than a small scene; 0 where the system does not tell.
+/// longer than a small scene; 0 if /proc is missing.
 double seconds_of_process();
 
 } // namespace rollwave

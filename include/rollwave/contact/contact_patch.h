@@ -42,9 +42,9 @@ struct ContactResultants {
  * Outside of an end, at the distance d, the gap grows like d^(1+s), and inside the pressure like
  * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) is linear in
  * z, and its root is the end: a straight line through the second and the fourth node outside (the
- * first carries the error of the end cell), or the first two when there are no more, or else the
- * same with the pressure inside. Where the zone cuts the contact short, the end is the zone's; no
- * end lies beyond the zone or the tangent of a drum.
+ * first carries the error of the end cell). If there are fewer nodes, the first two are used. If
+ * that fails, the pressure inside is. Where the zone cuts the contact short, the end is the zone's;
+ * no end lies beyond the zone or the tangent of a drum.
  * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
  * used when the nodes are further apart than that.
  *

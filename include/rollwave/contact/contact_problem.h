@@ -73,10 +73,6 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
 /// The largest admissible residuals of a solved scene, relative to its data.
 constexpr double wanted_residual = 1e-10;
 
-/// The accuracies that contact methods ask of ContactLinearSolver::solve(): while the contact still
-/// changes, and for the solution that they return.
-constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
-
 /// The contact conditions at the nodes of the @p boundary of a scene.
 ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene& scene);
 

@@ -20,7 +20,7 @@ struct CertificateOptions {
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
 struct CertifiedError {
   double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
-  double force_data;   ///< its share delta for what G_h misses of the force, see ForceIntegral
+  double force_data;   ///< its share delta for what Q_h misses of the force, see ForceIntegral
   double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
   double lower_bound;  ///< of J(u)
   double upper_bound;  ///< of J(u), the energy J(v)
@@ -45,11 +45,11 @@ struct CertifiedError {
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
  * a StressFunction psi, in terms of which the first integral is
  *
- *     int [ r alpha (psi_s + v_z)^2 + r ((G_h - psi_z)/r - v_r)^2 ] dr dz,
+ *     int [ r alpha (psi_s + v_z)^2 + r ((Q_h - psi_z)/r - v_r)^2 ] dr dz,
  *
  * where s(r) = int_r^b rho alpha drho, so that psi_s = -psi_r / (r alpha).
  *
- * G_h is that of ForceIntegral, which misses the force by no more than delta in the dual norm, so
+ * Q_h is that of ForceIntegral, which misses the force by no more than delta in the dual norm, so
  * that a(v - u, v - u)^(1/2) <= eta + delta by the triangle inequality, and the bounds of J open
  * accordingly.
  *
@@ -61,7 +61,7 @@ struct Certificate {
   CertifiedError error;            ///< the bounds
   std::vector<double> cell_bounds; ///< of each active cell; the squares add up to eta^2 + delta^2
   AdmissibleTrace trace;           ///< v on the surface
-  double work_of_force;            ///< (f, v), by G_h
+  double work_of_force;            ///< (f, v), by Q_h
 };
 
 /// Certifies the solution @p contact on the @p boundary of a scene with the displacement @p field.

@@ -15,24 +15,23 @@ struct Scene;
 /**
  * The integral of a force f from the surface inwards, from which load and error bound are made,
  *
- *     G(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int G w_r dr dz   for w = 0 on r = a,
+ *     Q(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int Q w_r dr dz   for w = 0 on r = a,
  *
- * in the form of a G_h. For a force that is a number, G_h = G = f (b^2 - r^2)/2. For an expression
- * G_h is, on each cell, the polynomial that equals G at the points of rule() along z and of
- * RadialShapes along r; G there is a sum of Gauss' rules between the radii from the surface
+ * in the form of a Q_h. For a force that is a number, Q_h = Q = f (b^2 - r^2)/2. For an expression
+ * Q_h is, on each cell, the polynomial that equals Q at the points of rule() along z and of
+ * RadialShapes along r; Q there is a sum of Gauss' rules between the radii from the surface
  * inwards, with degree + 1 points each: fewer would let the energy err by more than the mesh does.
  *
- * G_h changes the work of the force on w by int (G - G_h) w_r dr dz, and that is at most delta |w|,
+ * Q_h changes the work of the force on w by int (Q - Q_h) w_r dr dz, and that is at most delta |w|,
  *
- *     delta = (int (G - G_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
+ *     delta = (int (Q - Q_h)^2 / r dr dz)^(1/2),      |w|^2 = a(w, w).
  *
- * delta is estimated on each cell from the highest coefficients of G_h along r, from two finer
- * rules along r on one line, Gauss' and Lobatto's on quarters of the intervals, and from G at the
- * ends of the cell on 32 lines. The last two are charged twice: a jump may lie anywhere between two
- * points, and so much covers the rest of an integral of |r - r_0|^(-s) for s < 1/2, where f is
- * square-integrable. The estimate assumes that f is square-integrable and that these points see it:
- * a strip that is narrower than they are apart may be missed, and so may a spot smaller than a
- * cell.
+ * delta is estimated on each cell from the highest coefficients of Q_h along r, from two finer
+ * rules along r on one line, Gauss' and Lobatto's on quarters of the intervals, and from Q at the
+ * ends of the cell on 32 lines. The last two are doubled, since a jump may lie anywhere between two
+ * points. This also covers |r - r_0|^(-s), s < 1/2. The estimate assumes that f is
+ * square-integrable. It may miss a strip narrower than the distances between these points, and a
+ * spot smaller than a cell.
  */
 class ForceIntegral {
 public:
@@ -41,23 +40,23 @@ public:
   ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
 
   /// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
-  /// degree + 1 points or, for an expression, two more, G_h being of a higher degree.
+  /// degree + 1 points or, for an expression, two more, Q_h being of a higher degree.
   const dealii::QGauss<1>& rule() const { return angular; }
 
-  /// True if G is a function of r alone, which does no work on periodic potentials.
+  /// True if Q is a function of r alone, which does no work on periodic potentials.
   bool is_uniform() const { return uniform; }
 
-  /// G_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
+  /// Q_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.
   const double* on_line(unsigned int cell, unsigned int p) const {
     return &values[cell][uniform ? 0 : p * n_radii(cell)];
   }
 
   /// The same at the share @p t of the cell's angular interval.
-  void on_line_at(unsigned int cell, double t, std::vector<double>& line) const;
+  void values_on_line_at(unsigned int cell, double t, std::vector<double>& line) const;
 
   enum class TestSpace {
-    displacements, ///< int G_h d_r phi_i dr dz
-    potentials     ///< int G_h d_z psi_i / r dr dz
+    displacements, ///< int Q_h d_r phi_i dr dz
+    potentials     ///< int Q_h d_z psi_i / r dr dz
   };
   void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, TestSpace kind,
                 const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
@@ -72,11 +71,11 @@ public:
   double scan_width() const { return width; }
 
 private:
-  void take_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
-  void take_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
-  void take_sector(const Scene& scene, const std::vector<double>& mesh_radii,
-                   const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& cells,
-                   RadialShapesOfMesh& shapes);
+  void integrate_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
+  void integrate_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
+  void integrate_sector(const Scene& scene, const std::vector<double>& mesh_radii,
+                        const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& cells,
+                        RadialShapesOfMesh& shapes);
   unsigned int n_radii(unsigned int cell) const {
     return values[cell].size() / (uniform ? 1 : angular.size());
   }
@@ -86,13 +85,13 @@ private:
   const dealii::QGauss<1> inwards; ///< the rule between neighbouring radii
   const std::vector<dealii::Polynomials::Polynomial<double>> lagrange; ///< of its points
 
-  /// G_h of each active cell at all radii on the first line, then on the next.
+  /// Q_h of each active cell at all radii on the first line, then on the next.
   std::vector<std::vector<double>> values;
   std::vector<double> errors_squared; ///< of each active cell; empty for a number
   double delta = 0, width = 0;
 };
 
-/// The load of G_h on displacements, with the constraints of the space applied.
+/// The load of Q_h on displacements, with the constraints of the space applied.
 FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
                           RadialShapesOfMesh& shapes);
 

@@ -12,8 +12,6 @@
 
 namespace rollwave {
 
-struct Scene;
-
 /**
  * The radial shape functions of a potential psi on the interval [begin, end] of a cell: functions
  * whose derivative by the depth s(r) = int_r^b rho alpha drho is a polynomial of degree p - 1 in r,

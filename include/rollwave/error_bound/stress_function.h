@@ -18,13 +18,13 @@ class RunStatistics;
 /**
  * The potential psi of a flux tau that balances the force and a contact pressure lambda,
  *
- *     r tau_z = psi_r,   r tau_r = G - psi_z,   G(r, z) = int_r^b rho f drho,   psi_z = b lambda on
+ *     r tau_z = psi_r,   r tau_r = Q - psi_z,   Q(r, z) = int_r^b rho f drho,   psi_z = b lambda on
  *     r = b,
  *
  * so that d_z tau_z + (1/r) d_r (r tau_r) + f = 0 whatever psi is. Among the continuous functions
  * that are products of StressFunctionBasis in r and polynomials in z on each cell it minimises
  *
- *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (G - psi_z)^2 / r dr dz.
+ *     int r (tau_z^2 / alpha + tau_r^2) dr dz = int psi_s^2 ds dz + int (Q - psi_z)^2 / r dr dz.
  *
  * psi is prescribed on r = b up to a constant, free on the hub, and grows by b int lambda dz in a
  * period.
@@ -40,7 +40,7 @@ public:
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
   /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param force nullptr when G is a function of r, which does no work: int psi_z dz = 0 for every
+  /// @param force nullptr when Q is a function of r, which does no work: int psi_z dz = 0 for every
   /// periodic psi
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,

@@ -28,8 +28,8 @@ public:
   /// k. Beyond k = 64 by interpolation of k / sigma_k in panels that double in length.
   double compliance(double k) const;
 
-  /// The compliance when the hub were infinitely far inside, b / theta; it differs from the other
-  /// by a factor 1 + O((a/b)^(2k)).
+  /// The compliance for a hub at r = 0, b / theta; it differs from the other by a factor
+  /// 1 + O((a/b)^(2k)).
   double compliance_without_hub(double k) const;
 
   /// From this k on both agree to round-off.

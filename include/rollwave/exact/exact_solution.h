@@ -17,8 +17,7 @@ namespace rollwave {
  * has to equal phi on |x| < w. This is tested by the n functions of the series itself, which gives
  * a symmetric positive definite system for its coefficients, and by the next one, which gives the
  * half-width w: a wrong w would need a pressure that is singular at the ends. Where the zone cuts
- * the contact short, w is the zone's and the pressure is singular, with the exponent -s. Sums over
- * k run exactly up to some k, then as integrals, then as the mean of their asymptotic form.
+ * the contact short, w is the zone's and the pressure is singular, with the exponent -s.
  */
 struct ExactSolution {
   ExactScene scene;
@@ -38,9 +37,8 @@ struct ExactSolution {
   /// Exponent of the pressure at the ends: 1 - s, or -s where the zone cuts the contact short.
   double end_exponent;
 
-  /// False near the critical speed, where the ends obey one law outside and another inside of a
-  /// distance that the series does not resolve: F and J are good then, the pressure at the ends is
-  /// not.
+  /// False near the critical speed, where the series does not resolve the law at the ends: F and J
+  /// are accurate, the pressure at the ends is not.
   bool ends_resolved;
 
   /// lambda(z), of the longest series; identically zero without contact.

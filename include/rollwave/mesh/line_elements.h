@@ -10,14 +10,21 @@ namespace rollwave {
 /// Lagrange polynomials on [0, 1] with nodes at the Gauss-Lobatto points, as the elements have.
 std::vector<dealii::Polynomials::Polynomial<double>> lobatto_lagrange(unsigned int degree);
 
+/// The values and the derivatives of polynomials at a point t.
+struct ShapesAtPoint {
+  std::vector<double> value, derivative;
+
+  ShapesAtPoint(const std::vector<dealii::Polynomials::Polynomial<double>>& polynomials, double t);
+};
+
 /// A quadrature rule for dr on a radial interval.
 struct RadialRule {
   std::vector<double> r;
   std::vector<double> weight;
 };
 
-/// The ends of the pieces, all of one ratio of radii, 2 at most, that [begin, end] is cut into for
-/// integrands that are smooth except for a pole at r = 0.
+/// Cuts [begin, end] into pieces with equal ratios of radii, at most 2, for integrands with a pole
+/// at r = 0. Returns their ends.
 std::vector<double> graded_radii(double begin, double end);
 
 /// The number of Gauss' points on such a piece that integrate 1/r times a polynomial of degree

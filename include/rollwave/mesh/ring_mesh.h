@@ -35,15 +35,14 @@ double count_unknowns(const MeshOptions& mesh);
 void check_mesh_size(const MeshOptions& mesh);
 
 /**
- * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` rectangles in (r, z), equal but that
- * their heights grow geometrically near a small hub, refined `Mesh/Global refinements` times,
- * periodic over the seam. Where `Road/Contact zone` is given, its ends are vertices, and the cells
- * within and outside of it differ in length as they must: a zone that ended inside of cells would
- * cut the contact short at another place on every mesh.
+ * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), refined
+ * `Mesh/Global refinements` times, periodic over the seam. Heights grow geometrically near a small
+ * hub. If `Road/Contact zone` is given, its ends are vertices, and cells inside and outside of it
+ * differ in length: a zone that ended inside of cells would cut the contact short at another place
+ * on every mesh.
  *
- * On several processes each has a part of it. Which class it is of is up to what will be done with
- * it: p4est's if it @p may_be_refined; if not, columns of cells along z, numbered one after
- * another, through which assembly and multigrid run faster than through p4est's parts.
+ * On several processes each has a part of it: the mesh is p4est's if it @p may_be_refined,
+ * otherwise it has columns of cells along z, on which assembly and multigrid are faster.
  *
  * @throws BadValue as check_mesh_size(), NotEnoughMemory.
  */

@@ -32,8 +32,8 @@ bool is_of_same_run(const Parameters& parameters);
 
 /**
  * Makes the directory of a run, on rank 0 for all. Where an earlier run has left its parameters.prm
- * it removes the files of that run that this one will not write: those by which runs call their
- * files, and no others.
+ * it removes the files of that run that this one will not write, by the fixed names of this
+ * program.
  *
  * @return the names of the removed files
  * @throws BadValue when the directory cannot be made or written into, NotWritten when there is no

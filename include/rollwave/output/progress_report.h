@@ -7,8 +7,8 @@
 
 namespace rollwave {
 
-/// Prints each phase that takes long when it ends, the contact steps of slow methods, about one in
-/// a second, and a row for each mesh of an adaptive run.
+/// Prints slow phases, a contact step about every second, and a row for each mesh of an adaptive
+/// run.
 Progress report_progress(std::ostream& out, const Units& units);
 
 /// Prints a line for a mesh of an adaptive run if there was none for five seconds.

@@ -5,9 +5,9 @@
 
 namespace rollwave {
 
-/// Writes the files that @p parameters ask for: on several processes each its part of the field,
-/// one of them the others. The time is added to the work of @p solution, whose summary is written
-/// last. @throws NotWritten.
+/// Writes the files that @p parameters ask for. Each process writes its cells, rank 0 the other
+/// files. The seconds are added to the statistics of @p solution; its summary is written last.
+/// @throws NotWritten.
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution);
 

@@ -17,7 +17,7 @@ namespace rollwave {
  * `F`. Elements of degree p become VTK's Lagrange cells with (p + 1)^2 nodes, or p^2 linear cells.
  * A failure to write is left in the state of the stream.
  *
- * Of several processes each writes its own cells, of which there must be one.
+ * Each process writes its own cells, and must have at least one.
  */
 void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind);
 

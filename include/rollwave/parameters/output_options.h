@@ -21,7 +21,7 @@ struct OutputOptions {
   CellKind cells = CellKind::high_order;
 };
 
-/// A list of kinds of files, and `parameters`. @throws BadInput for an unknown one
+/// The kinds in a list, always with `parameters`. @throws BadInput for an unknown one
 std::set<OutputFile> parse_files(const std::string& text);
 
 /// The keys of the section.

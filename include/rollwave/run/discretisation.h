@@ -20,13 +20,14 @@ namespace rollwave {
 /// for another scene at the cost of what differs.
 struct MeshCache {
   SolverChoice stiffness; ///< its kind outlives the solver
-  std::unique_ptr<StressFunction> dual;
+  std::unique_ptr<StressFunction> stress_function;
   std::unique_ptr<ForceIntegral> force; ///< nullptr without force
   std::optional<FieldVector> load;      ///< of the same
   std::string force_text;               ///< of the scene that force and load belong to
 
-  /// Makes the dual problem that of a scene. @throws as StressFunction
-  StressFunction& dual_of(const Scene& scene, const RingSpace& space, RunStatistics& statistics);
+  /// The stress function for the speed of a scene. @throws as StressFunction
+  StressFunction& stress_function_for(const Scene& scene, const RingSpace& space,
+                                      RunStatistics& statistics);
 };
 
 /// A mesh with its space and its matrices; the members are listed in the order of their dependence.
@@ -55,7 +56,7 @@ struct Discretisation {
               RunStatistics& statistics);
 };
 
-/// The most cells that RefinementOptions::most_unknowns allow.
+/// The most cells that MeshOptions::most_unknowns allows.
 double most_cells(const RunOptions& options);
 
 } // namespace rollwave

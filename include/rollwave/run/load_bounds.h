@@ -15,18 +15,17 @@ namespace rollwave {
  * E opens them by |G'| d/2, the width w of the energy bounds by w/d: d is the square root of 2 w /
  * |G'|.
  *
- * @p solution is that of its scene on the space of the @p candidates, with the certified @p error.
+ * @p solution is that of its scene on the @p mesh, with the certified @p error.
  * @throws NotSolved when a solver fails.
  */
-Bounds bound_load(const RunOptions& options, const ContactBoundary& candidates,
-                  const MeshSolution& solution, const CertifiedError& error, MeshCache& cache,
-                  RunStatistics& statistics);
+Bounds bound_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
+                  const CertifiedError& error, RunStatistics& statistics);
 
 /// Guaranteed bounds of the distance c at which the work-conjugate load is G, by the same energies:
 /// the road is nearer than c + d where (E(c) - E(c + d))/d <= G is certified, and farther than c -
 /// d where G <= (E(c - d) - E(c))/d is. nullopt where no d up to a hundredth of c is large enough.
-std::optional<Bounds> bound_distance(const RunOptions& options, const ContactBoundary& candidates,
+std::optional<Bounds> bound_distance(const RunOptions& options, Discretisation& mesh,
                                      const MeshSolution& solution, const CertifiedError& error,
-                                     MeshCache& cache, RunStatistics& statistics);
+                                     RunStatistics& statistics);
 
 } // namespace rollwave

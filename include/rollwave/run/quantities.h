@@ -11,8 +11,8 @@
 
 namespace rollwave {
 
-/// Places other than summary.json and study.csv, which show every quantity. A quantity may have
-/// several of these flags.
+/// How a quantity is shown outside of summary.json and study.csv, which have every quantity. A
+/// quantity may have several of these flags.
 struct Shown {
   enum : unsigned int {
     screen = 1,        ///< the report of a single run

@@ -10,7 +10,7 @@
 namespace rollwave {
 
 /// Notes for a reader of the numbers: that contact ends with the zone, that the
-/// surface lies within the road outside of it, that the bound of the error says nothing, that the
+/// surface lies within the road outside of it, that the relative bound is 1 or more, that the
 /// mesh does not resolve the contact, or that displacements exceed the thickness of the ring.
 std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
                                     const Result& result);

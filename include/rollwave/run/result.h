@@ -53,14 +53,14 @@ struct Residuals {
 
 /// Errors against the exact solution.
 struct TrueErrors {
-  double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
-  double relative_energy_norm; ///< over that of u
-  bool is_resolved;            ///< true if the exact solution is accurate enough for it
-  double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2), nan where u is not known inside
-  double pressure;             ///< |lambda - lambda_h| in the norm of [.,.]_h
-  double force;                ///< |F - F_h|
-  double energy;               ///< |J(u) - J(u_h)|
-  double half_width;           ///< |w - w_h|
+  double energy_norm;                   ///< sqrt(a(u - u_h, u - u_h))
+  double relative_energy_norm;          ///< over that of u
+  bool is_resolved;                     ///< true if the exact solution is accurate enough for it
+  double l2_norm;                       ///< (int r (u - u_h)^2 dr dz)^(1/2)
+  double pressure;                      ///< |lambda - lambda_h| in the norm of [.,.]_h
+  double force;                         ///< |F - F_h|
+  double energy;                        ///< |J(u) - J(u_h)|
+  double half_width;                    ///< |w - w_h|
   std::optional<double> exact_distance; ///< where a load is given
 
   /// sqrt(a(u - v, u - v)) of the feasible displacement v of the certificate, and the

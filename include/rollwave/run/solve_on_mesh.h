@@ -63,4 +63,7 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
                            MeshCache& cache, RunStatistics& statistics,
                            const ContactObserver& step_ended = {});
 
+/// The certificate of a solution on the mesh of @p cache. @throws NotSolved as StressFunction
+Certificate certify(const MeshSolution& solution, MeshCache& cache, RunStatistics& statistics);
+
 } // namespace rollwave

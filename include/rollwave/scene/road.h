@@ -1,10 +1,15 @@
 #pragma once
 
+#include <deal.II/base/numbers.h>
+
 #include <functional>
 #include <utility>
 #include <vector>
 
 namespace rollwave {
+
+/// The angle z of the lowest point.
+constexpr double lowest_point = 1.5 * dealii::numbers::PI;
 
 /// x = z - 3 pi/2, the angle from the lowest point, to the accuracy of z: 3 pi/2 is taken in two
 /// parts.
@@ -17,7 +22,7 @@ double from_lowest_point(double z);
  *     rho(x) = (2 c + kappa c^2) / (m cos x + S),   m = 1 + kappa c,   S = (1 - m^2 sin^2 x)^(1/2),
  *
  * which is c / cos x for kappa = 0. Derivatives follow from the circle that (x, rho) lies on. A
- * drum ends for the axle's eye at its tangent, m sin x = 1; beyond, phi is b or more.
+ * drum ends at its tangent from the axle, m sin x = 1; beyond, phi is b or more.
  */
 struct Road {
   double outer_radius;  ///< b, a length
@@ -37,7 +42,8 @@ struct Road {
   /// does not reach so far; 0 where the surface is above the road.
   double crossing_angle(double free) const;
 
-  /// The angle up to which the axle sees the road: asin(1 / m) of a drum, pi of other roads.
+  /// The largest angle at which a ray from the axle meets the road: asin(1 / m) for a drum, else
+  /// pi.
   double tangent_angle() const;
 
   /// True for the outside of a drum, the only road with a tangent.
@@ -46,8 +52,8 @@ struct Road {
   /// The largest distance: -1/kappa inside of a drum, where its axis is the axle's, else infinity.
   double greatest_distance() const;
 
-  /// True if the axle sees the road in the direction of @p x, as it does all around inside of a
-  /// drum, and below itself otherwise.
+  /// True if a ray from the axle at the angle @p x can meet the road: all of them inside of a drum,
+  /// otherwise those that point downwards.
   bool is_visible(double x) const;
 
   /// The same road at the distance @p c.
@@ -74,7 +80,7 @@ struct Obstacle {
   double operator()(double z) const { return displacement(z); }
 };
 
-/// That of a road.
+/// The obstacle of a road.
 Obstacle make_obstacle(const Road& road);
 
 } // namespace rollwave

@@ -64,10 +64,9 @@ inline bool lies_in_zone(double z, const std::pair<double, double>& zone) {
  * The contact pressure is lambda = -u_r(b, z) >= 0. The bilinear form is elliptic for omega < 1/b;
  * at omega = 1/b alpha vanishes on r = b and the problem is degenerate there.
  *
- * Lengths are in a unit of the scene's own, a power of two, so that b is near 1 in it however long
- * the user's lengths are: nothing overflows, and a scene scaled by a power of two has the same
- * numbers to the last bit. The shear modulus, the wave speed and the width are 1 as well. What is
- * computed from a scene is in its units; Scene::units leads back.
+ * The unit of length is the power of two with 1 <= b < 2, so that no number overflows. Scaling a
+ * scene by a power of two changes no digit. The shear modulus, the wave speed and the width are 1
+ * as well. All results are in these units; Scene::units converts them to the user's.
  */
 struct Scene {
   double inner_radius;     ///< a, a length
@@ -75,7 +74,7 @@ struct Scene {
   double angular_velocity; ///< omega, one over a length (the wave speed is 1)
 
   BodyForce force;
-  Obstacle phi; ///< that of the road
+  Obstacle phi; ///< of the road
 
   double zone_begin; ///< z0, an angle; the zone may begin at any angle
   double zone_end;   ///< z1 in (z0, z0 + 2 pi]; the zone may be the whole circle
@@ -85,14 +84,9 @@ struct Scene {
 
   bool is_in_zone(double z) const { return lies_in_zone(z, zone()); }
 
-  /// True if the zone is the whole circle, whose ends are one.
-  bool is_whole_circle() const {
-    return zone_end - zone_begin >= 2 * dealii::numbers::PI - angular_round_off;
-  }
+  Units units = {}; ///< of the scene, in the user's
 
-  Units units = {}; ///< in the user's
-
-  Road road = {}; ///< whose distance is a guess where the load is given
+  Road road = {}; ///< its distance is a first guess if the load is given
 
   /// The load that is given instead of the distance, a length.
   struct Load {
@@ -100,8 +94,8 @@ struct Scene {
     LoadKind kind;
   };
   std::optional<Load> load = {};
-  double least_distance = 0;   ///< the road can be no nearer than this
-  bool has_given_zone = false; ///< whether the user has given the zone
+  double least_distance = 0;   ///< lower limit of the distance
+  bool has_given_zone = false; ///< true if the user gave the zone
 
   /// alpha(r) = 1/r^2 - omega^2, factored so that it stays accurate near omega = 1/r.
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
@@ -116,9 +110,7 @@ Scene with_distance(Scene scene, double c);
 /**
  * The scene that options describe.
  *
- * Its unit of length is the power of two with b in [1, 2).
- *
- * @param angular_cells those of the first mesh: an automatic zone is two cells wider than contact
+ * @param angular_cells of the first mesh, for the margin of an automatic zone
  * @throws BadValue unless 0 < a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an automatic
  * zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the force can be
  * parsed and is finite.

@@ -61,7 +61,7 @@ struct Units {
 
   double of(Quantity quantity) const { return unit(quantity).value; }
 
-  /// The name behind a number, " m", and behind the name of a quantity, " [m]".
+  /// The name after a number, " m", and after the name of a quantity, " [m]".
   std::string after(Quantity quantity) const;
   std::string in_brackets(Quantity quantity) const;
 };

@@ -9,6 +9,9 @@
 
 namespace rollwave {
 
+/// The accuracies of solve(): while the contact still changes, and for the final solution.
+constexpr double loose_accuracy = 1e-4, final_accuracy = 1e-11;
+
 struct Scene;
 class RunStatistics;
 

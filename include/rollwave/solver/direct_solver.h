@@ -61,7 +61,7 @@ private:
   dealii::LAPACKFullMatrix<double> factor; ///< L_cc
   dealii::LAPACKFullMatrix<double> schur;  ///< S
   std::optional<FieldVector> load;         ///< f; nullopt for f = 0
-  bool is_reduced = false;                 ///< whether what follows belongs to it and to the factor
+  bool is_reduced = false;                 ///< true if reduced_load and contact_load are up to date
   std::vector<double> reduced_load;        ///< L^-1 f; empty for f = 0
   dealii::Vector<double> contact_load;     ///< g
 };

@@ -54,7 +54,7 @@ struct Study {
 /// The known quantities of a result by their names, in the user's units.
 std::map<std::string, double> values_of(const Result& result, const Units& units);
 
-/// The pressure from the node before contact to that behind it, at about a hundred nodes at most,
+/// The pressure from the node before contact to that after it, at about a hundred nodes at most,
 /// in the user's units.
 std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units);
 

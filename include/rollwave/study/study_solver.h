@@ -26,7 +26,7 @@ public:
               MPI_Comm communicator);
 
   /// Solves the run of this number, from 0 on; if that fails the reason is in the outcome.
-  /// @throws Interrupted also when there is a result that lacks something; NotWritten
+  /// @throws Interrupted even if there is a partial result; NotWritten
   StudyRun solve(unsigned int number);
 
 private:

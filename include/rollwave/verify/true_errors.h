@@ -1,8 +1,7 @@
 #pragma once
 
-#include "rollwave/error_bound/error_bound.h"
 #include "rollwave/exact/exact_solution.h"
-#include "rollwave/run/result.h"
+#include "rollwave/run/simulation.h"
 
 namespace rollwave {
 
@@ -20,11 +19,8 @@ namespace rollwave {
  *
  * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
  *
- * @p exact must be the solution of the scene that @p result and @p field solve on @p space;
- * @p certificate, where there is one, that of this solution.
+ * @p exact must be that of the scene that @p solution solves.
  */
-TrueErrors measure_true_errors(const RingSpace& space, const FieldVector& field,
-                               const Result& result, const std::optional<Certificate>& certificate,
-                               const ExactSolution& exact);
+TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& exact);
 
 } // namespace rollwave
