@@ -64,10 +64,14 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene.units));
   report_result(out, solution.result, scene.units);
-  if (verifies)
+  const auto& directory = parameters.output.directory;
+  const WrittenFiles written = write_results(directory, parameters, solution);
+  if (verifies) { // which may take long
     attempt([&] { verify(solution, out); }, "the result could not be verified",
             "leave out --verify", communicator, solution.result.shortfalls);
-  const WrittenFiles written = write_results(parameters.output.directory, parameters, solution);
+    WrittenFiles again;
+    write_summary(directory, parameters, solution, again);
+  }
   report_end(out, solution.result.statistics, written);
   if (!solution.result.shortfalls.empty())
     throw TargetNotReached(shortfall_text(solution.result));

@@ -38,6 +38,7 @@ TEST_F(Program, WritesEveryDocumentedFile) {
     bytes += fs::file_size(directory / "out" / name);
   EXPECT_EQ(json["work"]["bytes_written"], bytes);
 
+  EXPECT_EQ(read("contact.csv").find("z,u,phi,gap,pressure,weight\n"), 0u);
   const auto rows = csv_rows(read("contact.csv"));
   double force = 0;
   for (const CsvRow& row : rows) {

@@ -27,8 +27,7 @@ using Cell = DoFHandler<2>::active_cell_iterator;
 /// Lines z = const through each cell on which Q is compared with Q_h.
 constexpr unsigned int n_lines = 32;
 
-/// The number of parts into which rules along r cut the intervals between the ends of cells. The
-/// finer rules cut each interval once more.
+/// Rules along r cut intervals between ends of cells into these parts, the finer ones once more.
 constexpr unsigned int n_parts = 4;
 
 /// The radii at which cells of all processes begin or end, or are cut by graded_radii().
@@ -258,9 +257,10 @@ void ForceIntegral::add_load(const RingSpace& space, RadialShapesOfMesh& shapes,
                              FieldVector& load) const {
   const bool of_potential = kind == TestSpace::potentials;
   const unsigned int n = space.dof_handler().get_fe().degree + 1;
+  const auto lagrange_shapes = lobatto_lagrange(n - 1);
   FullMatrix<double> along_z(angular.size(), n);
   for (unsigned int p = 0; p < angular.size(); ++p) {
-    const ShapesAtPoint shapes_at_p(lobatto_lagrange(n - 1), angular.point(p)[0]);
+    const ShapesAtPoint shapes_at_p(lagrange_shapes, angular.point(p)[0]);
     for (unsigned int j = 0; j < n; ++j)
       along_z(p, j) =
           angular.weight(p) * (of_potential ? shapes_at_p.derivative : shapes_at_p.value)[j];

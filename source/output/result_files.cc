@@ -94,22 +94,29 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
       written.write(directory / "surface.vtu", surface_vtu(scene, result));
       written.write(directory / "road.vtu", road_vtu(scene));
     }
-    if (parameters.wants(OutputFile::plot) && is_first)
-      draw(plot_scene(scene, result), directory, "scene", written);
     if (parameters.wants(OutputFile::solution))
       try {
         write_field(directory, parameters, solution, written);
       } catch (const NotWritten&) {
-        failure = std::current_exception(); // the largest file by far: the summary may have room
+        failure = std::current_exception(); // the largest file by far: others may have room
       }
+    if (parameters.wants(OutputFile::plot) && is_first)
+      draw(plot_scene(scene, result), directory, "scene", written);
   }
   result.statistics.bytes_written += written.n_bytes;
-  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
-  if (parameters.wants(OutputFile::summary) && is_first)
-    written.write(directory / "summary.json", summary_json(scene, parameters, result));
+  write_summary(directory, parameters, solution, written);
   if (failure)
     std::rethrow_exception(failure);
   return written;
+}
+
+void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
+                   Solution& solution, WrittenFiles& written) {
+  const MPI_Comm communicator = solution.space().communicator();
+  Result& result = solution.result;
+  result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
+  if (parameters.wants(OutputFile::summary) && process_number(communicator) == 0)
+    written.write(directory / "summary.json", summary_json(solution.scene, parameters, result));
 }
 
 } // namespace rollwave

@@ -97,7 +97,8 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
       << units.after(Quantity::energy_norm) << ", "
       << (std::isfinite(certified.relative) ? "relative " + rounded_up(certified.relative, 3)
                                             : std::string("no relative bound"))
-      << "\n           (of the displacement; for the other numbers see Accuracy in doc/manual.md)\n";
+      << "\n           (of the displacement; for the other numbers see Accuracy in "
+         "doc/manual.md)\n";
   const double outside = std::max(certified.lower_bound - result.energy.value,
                                   result.energy.value - certified.upper_bound);
   if (outside > 0)
@@ -241,7 +242,7 @@ void report_end(std::ostream& out, const RunStatistics& statistics, const Writte
   };
   out << "\nSeconds\n" << std::fixed << std::setprecision(3);
   const double phases = statistics.total_seconds(), total = std::max(phases, seconds_of_process());
-  print("start-up (libraries)", total - phases);
+  print("start-up and other", total - phases);
   for (const std::string& phase : RunStatistics::phase_names())
     if (const auto seconds = statistics.seconds(phase))
       print(phase, *seconds);

@@ -39,7 +39,7 @@ std::string refusal_of(const Setting& setting, const std::string& reason) {
 /// Advice on a number that is followed by a comma or letters; empty for other texts.
 std::string hint_on_number(const std::string& value) {
   static const std::regex number(R"([+-]?\d[\d.]*([eE][+-]?\d+)?)"),
-      number_and_more(R"([+-]?\d[\d.]* *[,a-zA-Z/].*)");
+      number_and_more(R"([+-]?\d[\d.]* *[,a-zA-Z].*)");
   return !std::regex_match(value, number) && std::regex_match(value, number_and_more)
              ? " (a number has a decimal point and no unit)"
              : "";

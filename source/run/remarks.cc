@@ -39,7 +39,8 @@ bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
   return false;
 }
 
-/// On contact that ends where the zone does, other than at the tangent of a drum.
+/// On contact that ends where the zone does, other than at the tangent of a drum or around the
+/// whole circle, where tangent_angle() is pi.
 std::string remark_on_zone_ends(const Scene& scene, const Result& result) {
   const auto& ends = result.contact.ends;
   const double tangent = scene.road.tangent_angle();

@@ -2,6 +2,7 @@
 
 #include "rollwave/base/memory.h"
 
+#include <string>
 #include <utility>
 
 namespace rollwave {
@@ -61,9 +62,10 @@ void SparseCholesky::analyse(const LowerTriplets& triplets, RunStatistics& stati
   constexpr double dense_matrices = 3; // of the last nodes: L_cc, S, and a block of S factorised
   const double n_entries =
       cholesky->n_factor_entries() + dense_matrices * last.size() * last.size();
-  require_memory(sizeof(double) * n_entries, "the factor for " + std::to_string(cholesky->size()) +
-                                                 " unknowns with " + std::to_string(last.size()) +
-                                                 " contact nodes");
+  std::string purpose = "the factor for " + std::to_string(cholesky->size()) + " unknowns";
+  if (!last.empty())
+    purpose += " with " + std::to_string(last.size()) + " contact nodes";
+  require_memory(sizeof(double) * n_entries, purpose);
 }
 
 void SparseCholesky::factorise(RunStatistics& statistics) {

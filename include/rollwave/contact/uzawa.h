@@ -13,9 +13,9 @@ namespace rollwave {
  *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
  *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
  *
- * With mu the largest eigenvalue of the compliance, which maps -p to -u, on a set of nodes, it
- * converges from any start for 0 < rho < 2 / mu of all contact nodes, and only below 2 / mu of
- * those that end up in contact. A step length that is too large shows in a residual that stops
+ * With theta the largest eigenvalue of the compliance, which maps -p to -u, on a set of nodes, it
+ * converges from any start for 0 < rho < 2 / theta of all contact nodes, and only below 2 / theta
+ * of those that end up in contact. A step length that is too large shows in a residual that stops
  * falling.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
@@ -26,9 +26,10 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
                       const ContactObserver& step_ended = {});
 
 /**
- * The largest eigenvalue mu of the compliance, displacement over pressure, of the contact nodes
- * selected by @p nodes: C M x = mu x, C = S^-1 restricted to them, M the diagonal of their weights.
- * By power iteration, which approaches it from below, to a relative accuracy of about 1e-6.
+ * The largest eigenvalue theta of the compliance, displacement over pressure, of the contact nodes
+ * selected by @p nodes: C M x = theta x, C = S^-1 restricted to them, M the diagonal of their
+ * weights. By power iteration, which approaches it from below, to a relative accuracy of about
+ * 1e-6.
  */
 double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
                           const std::vector<bool>& nodes);

@@ -11,4 +11,9 @@ namespace rollwave {
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution);
 
+/// Writes summary.json, if @p parameters ask for it, with the memory so far. All processes must
+/// call it. @throws NotWritten.
+void write_summary(const std::filesystem::path& directory, const Parameters& parameters,
+                   Solution& solution, WrittenFiles& written);
+
 } // namespace rollwave

@@ -19,7 +19,7 @@ double from_lowest_point(double z);
  * A rigid road of the curvature kappa (0: flat, positive: the outside of a drum, negative: the
  * inside of one) whose nearest point lies at the distance c below the axle. It lies at the radius
  *
- *     rho(x) = (2 c + kappa c^2) / (m cos x + S),   m = 1 + kappa c,   S = (1 - m^2 sin^2 x)^(1/2),
+ *     rho(x) = (2 c + kappa c^2) / (m cos x + R),   m = 1 + kappa c,   R = (1 - m^2 sin^2 x)^(1/2),
  *
  * which is c / cos x for kappa = 0. Derivatives follow from the circle that (x, rho) lies on. A
  * drum ends at its tangent from the axle, m sin x = 1; beyond, phi is b or more.
@@ -32,18 +32,17 @@ struct Road {
   /// phi = rho - b, a length. Near the lowest point nothing cancels.
   double displacement(double x) const;
 
-  /// dphi/dx = rho m sin x / S
+  /// dphi/dx = rho m sin x / R
   double slope(double x) const;
 
-  /// dphi/dc = cos x + m sin^2 x / S, which is 1 / cos x on a flat road
+  /// dphi/dc = cos x + m sin^2 x / R, which is 1 / cos x on a flat road
   double distance_derivative(double x) const;
 
   /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
   /// does not reach so far; 0 where the surface is above the road.
   double crossing_angle(double free) const;
 
-  /// The largest angle at which a ray from the axle meets the road: asin(1 / m) for a drum, else
-  /// pi.
+  /// The angle of the tangent of a drum, asin(1 / m); pi for roads without a tangent.
   double tangent_angle() const;
 
   /// True for the outside of a drum, the only road with a tangent.
@@ -69,7 +68,7 @@ struct Road {
   std::vector<std::pair<double, double>> points(double longest) const;
 
 private:
-  double root(double x) const; ///< S, 0 beyond the tangent
+  double root(double x) const; ///< R, 0 beyond the tangent
 };
 
 /// phi(z), the displacement at which the surface touches the road, and its slope dphi/dz.
