@@ -109,7 +109,7 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
       loads_of(problem, rate.force); // while the same nodes stay in contact
   if (!(fixed_set_stiffness.total > 0))
     return fixed_set_stiffness;
-  // The nodes at the ends repeat their pattern with each cell: the mean over two cells.
+  // The pattern of nodes at the ends repeats with each cell. Two cells average over it.
   constexpr double n_cells = 2;
   const Bracket limits(scene);
   const double c = scene.road.distance;

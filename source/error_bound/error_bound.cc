@@ -153,7 +153,7 @@ private:
   double length = 0, height = 0;
   unsigned int number = 0; ///< of the active cell
   const RadialShapes* radial = nullptr;
-  /// Of u, psi and their angular derivatives along a line, and Q_h there.
+  /// The values of u, psi, their z-derivatives and Q_h along a line.
   std::vector<double> line_u, line_u_z, line_psi, line_psi_z, moments;
 };
 

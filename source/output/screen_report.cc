@@ -127,11 +127,11 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches) {
     out << "  contact from " << rounded(patch.begin, 6) << " to " << rounded(patch.end, 6)
-        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad,\n    on "
+        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad, on "
         << rounded(patch.length * units.of(Quantity::length), 5) << units.after(Quantity::length)
         << " of the road";
     if (contact.patches.size() > 1)
-      out << ", force " << rounded(patch.force * units.of(Quantity::force), 9)
+      out << ",\n    force " << rounded(patch.force * units.of(Quantity::force), 9)
           << units.after(Quantity::force);
     out << '\n';
   }

@@ -144,7 +144,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.units = {unit, material};
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
-  // check_cylinder() tolerates round-off above 1/b. Without it alpha(b) >= 0.
+  // Takes off the round-off above 1/b that check_cylinder() tolerates, so that alpha(b) >= 0.
   scene.angular_velocity =
       std::min(cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity),
                1 / scene.outer_radius);
