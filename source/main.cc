@@ -65,8 +65,8 @@ int main(int argc, char* argv[]) {
     is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     install_signal_handlers(is_first); // PETSc has replaced them
   }
-  // An error of all processes, or of rank 0 alone, which writes the files: rank 0 reports it and
-  // ends the others, which wait for it at the end of MPI.
+  // Reports an error and ends all processes. Rank 0 does so for an error that all processes have,
+  // or that rank 0 has alone because it writes the files; the others then wait in MPI_Finalize.
   const auto fail = [&](const std::string& message, int code, bool is_of_one_process = false) {
     if (is_first || is_of_one_process) {
       std::cout << std::flush;

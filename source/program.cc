@@ -17,6 +17,8 @@
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <ostream>
 
@@ -62,7 +64,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
   if (parameters.study.true_errors)
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
-  Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene.units));
+  Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene));
   report_result(out, solution.result, scene.units);
   const auto& directory = parameters.output.directory;
   const WrittenFiles written = write_results(directory, parameters, solution);
@@ -92,11 +94,10 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       study = plan_study(parameters, communicator);
     else
       scene = make_scene(parameters);
-    std::string removed;
-    for (const std::string& name : prepare_directory(parameters, is_study, communicator))
-      removed += (removed.empty() ? "" : ", ") + name;
+    const auto removed = prepare_directory(parameters, is_study, communicator);
     if (!removed.empty())
-      out << "Note: files of an earlier run are removed: " << removed << '\n';
+      out << "Note: files of an earlier run are removed: " << boost::algorithm::join(removed, ", ")
+          << '\n';
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))

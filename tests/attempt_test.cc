@@ -20,9 +20,7 @@ namespace {
 TEST(Attempt, MakesEveryFailureAShortfall) {
   const auto shortfalls_of = [](const std::function<void()>& compute) {
     std::vector<std::string> shortfalls;
-    const bool is_done =
-        attempt(compute, "a part is missing", "change a", MPI_COMM_SELF, shortfalls);
-    EXPECT_EQ(is_done, shortfalls.empty());
+    attempt(compute, "a part is missing", "change a", MPI_COMM_SELF, shortfalls);
     for (const std::string& text : shortfalls)
       EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     return shortfalls.size();
@@ -50,7 +48,7 @@ TEST(Attempt, FailingCertificateLeavesTheSolution) {
         without_certificate({setting, "Mesh/Indicator=kelly", "Mesh/Most unknowns=30000"});
     EXPECT_EQ(result.shortfalls.size(), 1u) << setting;
     EXPECT_FALSE(result.certified);
-    EXPECT_NEAR(result.contact.force, 0.33249897643, 1e-4);
+    EXPECT_NEAR(result.contact.loads.total, 0.33249897643, 1e-4);
     EXPECT_NEAR(result.energy.value, 0.02906970811, 1e-5);
   }
 }

@@ -107,12 +107,12 @@ TEST(AdmissiblePressure, IsNowhereNegativeAndKeepsTheForce) {
       const double round_off = 1e-14 * solution.resultants.peak_pressure;
       double force = 0;
       for (unsigned int i = 0; i < pressures.size(); ++i) {
-        const SurfaceFace& face = mesh.space->surface_faces()[i];
+        const SurfaceEdge& edge = mesh.space->surface_edges()[i];
         EXPECT_GE(pressures[i](0), -round_off) << degree << ' ' << cells;
         EXPECT_GE(pressures[i](1), -round_off) << degree << ' ' << cells;
-        force += solution.scene.outer_radius * (face.end - face.begin) * pressures[i].mean;
+        force += solution.scene.outer_radius * (edge.end - edge.begin) * pressures[i].mean;
       }
-      EXPECT_NEAR(force, solution.resultants.force, 1e-12 * force);
+      EXPECT_NEAR(force, solution.resultants.loads.total, 1e-12 * force);
     }
 }
 
@@ -382,8 +382,8 @@ TEST(Bounds, EncloseTheExactLoad) {
     EXPECT_LT(bounds.lower, bounds.upper);
     EXPECT_LT(bounds.upper - bounds.lower, 0.01 * bounds.upper);
     if (const auto exact = find_exact_solution(scene)) {
-      EXPECT_LT(bounds.lower, exact->work_conjugate_load) << scene_key;
-      EXPECT_GT(bounds.upper, exact->work_conjugate_load) << scene_key;
+      EXPECT_LT(bounds.lower, exact->loads.work_conjugate) << scene_key;
+      EXPECT_GT(bounds.upper, exact->loads.work_conjugate) << scene_key;
     }
   }
   // On a convex road the energy need not be convex in the distance.

@@ -147,9 +147,9 @@ TEST(ContactPatch, ResultantsAreSumsOverTheNodes) {
     on_distance += nodal_force / -std::sin(z);
   }
   const auto patch = patch_of(left, right, 0.5, 0.5, begin, end, n);
-  EXPECT_NEAR(patch.force, force, 1e-14 * force);
-  EXPECT_NEAR(patch.vertical_load, vertical, 1e-14 * vertical);
-  EXPECT_NEAR(patch.work_conjugate_load, on_distance, 1e-14 * on_distance);
+  EXPECT_NEAR(patch.loads.total, force, 1e-14 * force);
+  EXPECT_NEAR(patch.loads.vertical, vertical, 1e-14 * vertical);
+  EXPECT_NEAR(patch.loads.work_conjugate, on_distance, 1e-14 * on_distance);
 }
 
 } // namespace

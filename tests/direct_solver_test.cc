@@ -270,7 +270,7 @@ TEST(Direct, ContactFreeSolutionOfAConstantForceConverges) {
       const Scene scene = make_scene(parameters);
       const Solution solution = simulate(scene, parameters);
       EXPECT_EQ(solution.result.contact.active_nodes, 0u);
-      EXPECT_EQ(solution.result.contact.force, 0);
+      EXPECT_EQ(solution.result.contact.loads.total, 0);
       EXPECT_FALSE(solution.result.contact.ends);
       errors.push_back(
           std::abs(solution.result.surface.front().displacement - free_displacement(scene, -3)));

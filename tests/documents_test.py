@@ -76,18 +76,24 @@ def call(command, place):
                           cwd=place, capture_output=True, text=True)
 
 
-def shape(line):
-    """The words of a line: a number is as good as another, and so is the width of a gap. Ends at
-    "...", which stands for the rest, and before an explanation behind #."""
-    words = re.sub(r'[+-]?\b\d[\d.]*(e[+-]?\d+)?\b', '0', re.split(r'\.\.\.|\s#\s', line)[0])
-    return ' '.join(words.split())
+number = re.compile(r'[+-]?\b\d[\d.]*(?:e[+-]?\d+)?\b')
+
+
+def is_quoted(quoted, printed):
+    """True if a quoted line is the beginning of a printed one, with numbers that agree to 1 %. Residuals
+    are round-off, and versions differ. "..." stands for the rest, and # begins an explanation."""
+    quoted = re.split(r'\.\.\.|\s#\s', quoted)[0]
+    words, printed_words = (' '.join(number.sub('0', line).split()) for line in (quoted, printed))
+    pairs = list(zip(number.findall(quoted), number.findall(printed)))
+    return printed_words.startswith(words) and (
+        words.startswith(('Residuals', 'Rollwave')) or
+        all(abs(float(one) - float(other)) <= 0.01 * abs(float(one)) for one, other in pairs))
 
 
 def quoted_lines_missing(quoted, printed):
-    """The lines of a quoted screen that no line of the printed one begins with."""
-    shapes = [shape(line) for line in printed.splitlines()]
+    """The lines of a quoted screen that the printed one does not have."""
     return [line for line in quoted.splitlines()
-            if not any(printed_line.startswith(shape(line)) for printed_line in shapes)]
+            if not any(is_quoted(line, printed_line) for printed_line in printed.splitlines())]
 
 
 def try_page(page, place):

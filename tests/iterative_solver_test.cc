@@ -46,8 +46,8 @@ void expect_same_answer(const Scene& scene, const Parameters& parameters,
   FieldVector difference = iterative.on_mesh.displacement;
   difference -= direct.on_mesh.displacement;
   EXPECT_LE(difference.linfty_norm(), 1e-10 * direct.on_mesh.displacement.linfty_norm());
-  EXPECT_NEAR(iterative.result.contact.force, direct.result.contact.force,
-              1e-10 * direct.result.contact.force);
+  EXPECT_NEAR(iterative.result.contact.loads.total, direct.result.contact.loads.total,
+              1e-10 * direct.result.contact.loads.total);
   EXPECT_NEAR(iterative.result.energy.value, direct.result.energy.value,
               1e-10 * std::abs(direct.result.energy.value));
 

@@ -29,17 +29,15 @@ TEST(Load, GivesBackTheDistanceOfTheExactAnswer) {
                                                std::string("Cylinder/Angular velocity=") + omega};
     const auto exact = *find_exact_solution(make_scene(parameters_of(settings)));
     for (const auto& [kind, load] :
-         {std::pair("vertical", exact.vertical_load), std::pair("total", exact.force),
-          std::pair("work-conjugate", exact.work_conjugate_load)}) {
+         {std::pair("vertical", exact.loads.vertical), std::pair("total", exact.loads.total),
+          std::pair("work-conjugate", exact.loads.work_conjugate)}) {
       std::vector<std::string> with_load = settings;
       with_load.insert(with_load.end(),
                        {"Road/Load=" + digits(load), std::string("Road/Load kind=") + kind,
                         "Mesh/Radial cells=6", "Mesh/Angular cells=120"});
       const Solution solution = solve_for(with_load);
       EXPECT_NEAR(solution.result.road_distance, 0.8, 1e-4) << kind;
-      const Loads loads = {solution.result.contact.force, solution.result.contact.vertical_load,
-                           solution.result.contact.work_conjugate_load};
-      EXPECT_NEAR(loads.of(solution.scene.load->kind), load, 1e-9 * load);
+      EXPECT_NEAR(solution.result.contact.loads.of(solution.scene.load->kind), load, 1e-9 * load);
       const DistanceStep& last_step = solution.result.distance_history.back();
       EXPECT_NEAR(last_step.load, load, 1e-9 * load);
       EXPECT_NEAR(last_step.distance, solution.result.road_distance, 1e-12);
@@ -67,7 +65,7 @@ TEST(Load, IsMetOnEveryMeshAndByEveryMethod) {
     const Solution solution =
         solve_for({"Road/Load=0.02", "Mesh/Radial cells=3", "Mesh/Angular cells=60", setting});
     const double load = solution.scene.load->value;
-    EXPECT_NEAR(solution.result.contact.vertical_load / load, 1, 1e-6) << setting;
+    EXPECT_NEAR(solution.result.contact.loads.vertical / load, 1, 1e-6) << setting;
     EXPECT_TRUE(solution.result.shortfalls.empty());
   }
 }
@@ -100,7 +98,7 @@ TEST(Load, IsMetToNineDigitsOrIsAShortfall) {
     const Solution solution = solve_for(
         {"Road/Load=" + load, "Mesh/Radial cells=4", "Mesh/Angular cells=60", "Mesh/Degree=1"});
     const double wanted = solution.scene.load->value;
-    EXPECT_TRUE(std::abs(solution.result.contact.vertical_load / wanted - 1) <= 1e-9 ||
+    EXPECT_TRUE(std::abs(solution.result.contact.loads.vertical / wanted - 1) <= 1e-9 ||
                 !solution.result.shortfalls.empty())
         << load;
   }
@@ -115,9 +113,9 @@ TEST(Stiffness, IsThatOfTheExactAnswerAndFallsSteadily) {
     const Scene scene = make_scene(parameters_of({}));
     const ExactSolution near = *find_exact_solution(with_distance(scene, c - h)),
                         far = *find_exact_solution(with_distance(scene, c + h));
-    exact.push_back({(near.force - far.force) / (2 * h),
-                     (near.vertical_load - far.vertical_load) / (2 * h),
-                     (near.work_conjugate_load - far.work_conjugate_load) / (2 * h)});
+    exact.push_back({(near.loads.total - far.loads.total) / (2 * h),
+                     (near.loads.vertical - far.loads.vertical) / (2 * h),
+                     (near.loads.work_conjugate - far.loads.work_conjugate) / (2 * h)});
   }
   for (const auto& mesh : {std::pair("1", 1e-3), {"2", 1e-3}, {"4", 2e-3}}) {
     const auto& [degree, tolerance] = mesh;
@@ -149,10 +147,10 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
   std::vector<std::string> near = drum, loaded = drum;
   near.push_back("Road/Distance=0.55");
   const Solution solution = solve_for(near);
-  EXPECT_TRUE(std::isnan(solution.result.contact.work_conjugate_load));
+  EXPECT_TRUE(std::isnan(solution.result.contact.loads.work_conjugate));
   EXPECT_TRUE(std::isnan(solution.result.contact.stiffness.vertical));
   EXPECT_FALSE(solution.result.remarks.empty());
-  EXPECT_GT(solution.result.contact.force, 0.3);
+  EXPECT_GT(solution.result.contact.loads.total, 0.3);
   EXPECT_FALSE(find_exact_solution(solution.scene));
   EXPECT_FALSE(
       find_exact_solution(make_scene(parameters_of({"Road/Curvature=50", "Road/Distance=0.7"}))));
@@ -174,13 +172,13 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
                  "Mesh/Wanted relative error=1e-3"})
           .result;
   EXPECT_TRUE(resolved.shortfalls.empty());
-  EXPECT_NEAR(resolved.contact.work_conjugate_load / 0.2, 1, 1e-9);
+  EXPECT_NEAR(resolved.contact.loads.work_conjugate / 0.2, 1, 1e-9);
 }
 
 TEST(Load, DistanceIsEnclosed) {
   const auto exact = *find_exact_solution(make_scene(parameters_of({})));
   const Solution solution =
-      solve_for({"Road/Load=" + digits(exact.work_conjugate_load), "Road/Load kind=work-conjugate",
+      solve_for({"Road/Load=" + digits(exact.loads.work_conjugate), "Road/Load kind=work-conjugate",
                  "Certificate/Load bounds=true", "Mesh/Wanted relative error=1e-3"});
   ASSERT_TRUE(solution.result.distance_bounds);
   EXPECT_LE(solution.result.distance_bounds->lower, 0.8);
@@ -196,7 +194,7 @@ TEST(Patches, AreReportedSeparately) {
   const auto &left = contact.patches[0], &right = contact.patches[1];
   EXPECT_LT(left.end, 4.71238898);
   EXPECT_GT(right.begin, 4.71238898);
-  EXPECT_NEAR(left.force + right.force, contact.force, 1e-12);
+  EXPECT_NEAR(left.force + right.force, contact.loads.total, 1e-12);
   EXPECT_NEAR(left.force, right.force, 1e-6);
   EXPECT_NEAR(left.centroid + right.centroid, 3 * M_PI, 1e-5);
   EXPECT_LT(left.begin, left.centroid);

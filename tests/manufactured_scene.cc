@@ -60,15 +60,20 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
   const auto surface = series(m, cosine, sine);
   const auto surface_slope = series(m, slope_cosine, slope_sine);
 
-  ManufacturedScene made = {};
-  made.exact.scene = {inner_radius, outer_radius, angular_velocity, 0, 0};
-  made.exact.half_width = w;
-  made.exact.end_exponent = end_exponent;
-  made.exact.ends_resolved = true;
-  made.exact.pressure = pressure;
-  made.exact.force = outer_radius * pressure.fourier_integral(0).real();
-  made.exact.norm_squared = norm_squared;
-  made.exact.energy = norm_squared / 2;
+  const double force = outer_radius * pressure.fourier_integral(0).real();
+  ManufacturedScene made = {{},
+                            {{inner_radius, outer_radius, angular_velocity, 0, 0},
+                             w,
+                             {force, 0, 0},
+                             norm_squared / 2,
+                             norm_squared,
+                             0,
+                             0,
+                             0,
+                             0,
+                             end_exponent,
+                             true,
+                             pressure}};
   made.scene = {inner_radius,
                 outer_radius,
                 angular_velocity,

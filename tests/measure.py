@@ -38,8 +38,9 @@ def call(prm, settings, options=(), launcher=()):
     command = shlex.join([*launcher, 'build/rollwave', *line])
     if command not in commands:
         commands.append(command)
-    subprocess.run([*launcher, rollwave, *line, '--output', directory], cwd=root, env=environment,
-                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    ended = subprocess.run([*launcher, rollwave, *line, '--output', directory], cwd=root, env=environment,
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    (directory / 'screen.txt').write_text(ended.stdout)
     return directory
 
 
@@ -75,11 +76,11 @@ def shown(value):
     return str(int(value)) if abs(value) < 1e9 and value == int(value) else f'{value:.3g}'
 
 
-def rounded_up(value):
-    """A bound with three digits."""
+def rounded_up(value, digits=3):
+    """A bound with this number of digits."""
     if not isinstance(value, float) or not math.isfinite(value):
         return value
-    return float(decimal.Context(prec=3, rounding=decimal.ROUND_CEILING).create_decimal(value))
+    return float(decimal.Context(prec=digits, rounding=decimal.ROUND_CEILING).create_decimal(value))
 
 
 def table(titles, rows):
@@ -203,6 +204,38 @@ def wanted():
                    'relative error of F', 'seconds'], rows)] * 2
 
 
+def verified(settings):
+    """The summary of figure 4, and for each quantity of the comparison with the exact solution its
+    computed and exact value."""
+    directory = call('figure-4', settings, options=['--verify'])
+    pairs = re.findall(r'^ *(\D+?) +([-.\de]+) +([-.\de]+) .*$',
+                       (directory / 'screen.txt').read_text().split('Verification')[1], re.M)
+    return (json.loads((directory / 'summary.json').read_text()),
+            {name: (float(computed), float(exact)) for name, computed, exact in pairs})
+
+
+def accuracy():
+    near, far = (verified({'Road/Distance': c})[1]['vertical load'][1] for c in (0.799, 0.801))
+    stiffness = (near - far) / 0.002
+    meshes = {'5 x 120': {'Mesh/Radial cells': 5, 'Mesh/Angular cells': 120},
+              '10 x 240': {'Mesh/Radial cells': 10, 'Mesh/Angular cells': 240}, '20 x 480': {},
+              'adaptive, 1e-3': {'Mesh/Radial cells': 2, 'Mesh/Angular cells': 24,
+                                 'Mesh/Wanted relative error': '1e-3'}}
+    columns = []
+    for settings in meshes.values():
+        run, values = verified(settings)
+        values['vertical stiffness'] = run['contact']['stiffness']['vertical_load'], stiffness
+        error = run['error']
+        columns.append([run['mesh']['dofs'],
+                        f'{rounded_up(error["certified_relative"], 2):.2g}', f'{error["exact_relative"]:.2g}',
+                        *(f'{abs(computed / exact - 1):.2g}' for computed, exact in (
+                            values[name] for name in ('half-width', 'peak pressure', 'vertical stiffness',
+                                                      'vertical load', 'energy J')))])
+    names = ['unknowns', 'certified, energy norm', 'true error, energy norm', 'half-width',
+             'peak pressure', 'vertical stiffness', 'vertical load', 'energy J']
+    return [table(['mesh', *meshes], zip(names, *columns))] * 2
+
+
 def uniform(degree, radial, angular):
     return {'Mesh/Degree': degree, 'Mesh/Radial cells': radial, 'Mesh/Angular cells': angular}
 
@@ -276,7 +309,8 @@ def fill(name, text):
             page.write_text(after)
 
 
-for measurement in (figures, orders, adaptive, extremes, wanted, phases, sweep, processes, pictures):
+for measurement in (figures, orders, adaptive, extremes, wanted, accuracy, phases, sweep, processes,
+                    pictures):
     name = measurement.__name__
     if arguments.names and name not in arguments.names:
         continue

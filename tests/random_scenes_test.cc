@@ -101,8 +101,9 @@ bool compare_with_exact(const Scene& scene, const Parameters& parameters, const 
   const double radial_cells = parameters.mesh.radial_cells;
   const double norm = std::sqrt(2 * M_PI * std::max(2 / depth, radial_cells));
   // u_h is farther from v than the certificate knows by what v was moved, no more than its error.
-  EXPECT_LE(std::abs(result.contact.force - exact->force),
-            2 * norm * certified.energy_norm + 10 * exact->force_accuracy * std::abs(exact->force) +
+  EXPECT_LE(std::abs(result.contact.loads.total - exact->loads.total),
+            2 * norm * certified.energy_norm +
+                10 * exact->force_accuracy * std::abs(exact->loads.total) +
                 1e-12 * norm * std::sqrt(certified.norm_squared));
   return true;
 }
@@ -126,12 +127,12 @@ void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters
             -1e-10 * energy);
   for (const int i : {0, 1}) {
     const ContactResultants &near = results[i].contact, &far = results[i + 1].contact;
-    const double size = 1e-9 * std::abs(results[0].contact.work_conjugate_load);
-    EXPECT_LE(far.work_conjugate_load, near.work_conjugate_load + size);
+    const double size = 1e-9 * std::abs(results[0].contact.loads.work_conjugate);
+    EXPECT_LE(far.loads.work_conjugate, near.loads.work_conjugate + size);
     // E(c) - E(c + d) lies between d G at both ends.
     const double fall = results[i].energy.value - results[i + 1].energy.value;
-    EXPECT_LE(fall, step * near.work_conjugate_load + 1e-10 * energy);
-    EXPECT_GE(fall, step * far.work_conjugate_load - 1e-10 * energy);
+    EXPECT_LE(fall, step * near.loads.work_conjugate + 1e-10 * energy);
+    EXPECT_GE(fall, step * far.loads.work_conjugate - 1e-10 * energy);
   }
 }
 
@@ -222,11 +223,6 @@ TEST(RandomScenes, HaveTheSameNumbersByUzawasMethod) {
               n_compared, n_refused, n_not_solved);
 }
 
-double load_of(const Result& result, LoadKind kind) {
-  const ContactResultants& patch = result.contact;
-  return Loads{patch.force, patch.vertical_load, patch.work_conjugate_load}.of(kind);
-}
-
 TEST(RandomScenes, AreFoundAgainByTheirLoads) {
   const unsigned int n_scenes = n_random_scenes(40);
   Draw draw(7);
@@ -247,7 +243,7 @@ TEST(RandomScenes, AreFoundAgainByTheirLoads) {
       continue;
     }
     const double c = scene->road.distance, b = scene->outer_radius, nearest = scene->least_distance;
-    const double load = load_of(simulate(*scene, parameters).result, kind);
+    const double load = simulate(*scene, parameters).result.contact.loads.of(kind);
     if (!(load > 0) || c < nearest)
       continue;
     *scene = with_distance(std::move(*scene), nearest + (b - nearest) / 2);
@@ -255,7 +251,7 @@ TEST(RandomScenes, AreFoundAgainByTheirLoads) {
     const Result result = simulate(*scene, parameters).result;
     // Between neighbouring distances the load of a hairline contact changes by many digits.
     if (std::abs(result.road_distance - c) > 4e-16 * c) {
-      EXPECT_NEAR(load_of(result, kind) / load, 1, 1e-8);
+      EXPECT_NEAR(result.contact.loads.of(kind) / load, 1, 1e-8);
     }
     ++n_found;
   }

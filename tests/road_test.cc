@@ -121,8 +121,8 @@ TEST(Road, DrumsConvergeToTheExactAnswer) {
       const auto exact = find_exact_solution(solution.scene);
       ASSERT_TRUE(exact);
       const Result& result = solution.result;
-      EXPECT_NEAR(result.contact.force / exact->force, 1, 2e-3);
-      EXPECT_NEAR(result.contact.work_conjugate_load / exact->work_conjugate_load, 1, 2e-3);
+      EXPECT_NEAR(result.contact.loads.total / exact->loads.total, 1, 2e-3);
+      EXPECT_NEAR(result.contact.loads.work_conjugate / exact->loads.work_conjugate, 1, 2e-3);
       EXPECT_LE(result.certified->lower_bound, exact->energy);
       EXPECT_GE(result.certified->upper_bound, exact->energy);
       errors[level] = result.certified->energy_norm;
@@ -149,8 +149,8 @@ TEST(Road, CylinderThatFillsADrumTouchesItAllAround) {
     const Result result = simulate(make_scene(parameters), parameters).result;
     EXPECT_EQ(result.contact.active_nodes, 480u);
     EXPECT_NEAR(result.contact.half_width(), dealii::numbers::PI, 1e-12);
-    EXPECT_NEAR(result.contact.force, force, 1e-6);
-    EXPECT_NEAR(result.contact.vertical_load, dealii::numbers::PI * sigma_1 * (1 / 0.9 - distance),
+    EXPECT_NEAR(result.contact.loads.total, force, 1e-6);
+    EXPECT_NEAR(result.contact.loads.vertical, dealii::numbers::PI * sigma_1 * (1 / 0.9 - distance),
                 1e-6);
     EXPECT_NEAR(result.energy.value, energy, 1e-6);
     constexpr double rounding = 5e-11; // of the ten digits above
@@ -184,10 +184,10 @@ TEST(Road, EnergyFallsWithTheDistanceByTheWorkConjugateLoad) {
     };
     const double slope = (at(0.8 - h).energy - at(0.8 + h).energy) / (2 * h);
     const ExactSolution middle = at(0.8);
-    EXPECT_NEAR(slope, middle.work_conjugate_load, 1e-6);
+    EXPECT_NEAR(slope, middle.loads.work_conjugate, 1e-6);
     if (scene.size() > 1) { // on a flat road F < G < F / cos(w)
-      EXPECT_GT(slope, middle.force);
-      EXPECT_LT(slope, middle.force / std::cos(middle.half_width));
+      EXPECT_GT(slope, middle.loads.total);
+      EXPECT_LT(slope, middle.loads.total / std::cos(middle.half_width));
     }
   }
 }
@@ -201,10 +201,11 @@ TEST(Road, StiffnessIsTheSlopeOfTheLoads) {
     };
     const ExactSolution near = at(0.8 - h), far = at(0.8 + h);
     const Loads& stiffness = solution.result.contact.stiffness;
-    EXPECT_NEAR(stiffness.total / ((near.force - far.force) / (2 * h)), 1, 1e-3);
-    EXPECT_NEAR(stiffness.vertical / ((near.vertical_load - far.vertical_load) / (2 * h)), 1, 1e-3);
+    EXPECT_NEAR(stiffness.total / ((near.loads.total - far.loads.total) / (2 * h)), 1, 1e-3);
+    EXPECT_NEAR(stiffness.vertical / ((near.loads.vertical - far.loads.vertical) / (2 * h)), 1,
+                1e-3);
     EXPECT_NEAR(stiffness.work_conjugate /
-                    ((near.work_conjugate_load - far.work_conjugate_load) / (2 * h)),
+                    ((near.loads.work_conjugate - far.loads.work_conjugate) / (2 * h)),
                 1, 1e-3);
   }
 }

@@ -30,7 +30,7 @@ void expect_exact_values(const PaperScene& paper, const std::vector<std::string>
                          double tolerance) {
   const Result result = solve(with(paper.parameters(), mesh));
   EXPECT_LE(result.mesh.n_unknowns, 100000u);
-  EXPECT_NEAR(result.contact.force, paper.force, tolerance * paper.force);
+  EXPECT_NEAR(result.contact.loads.total, paper.force, tolerance * paper.force);
   EXPECT_NEAR(result.energy.value, paper.energy, tolerance * std::abs(paper.energy));
   EXPECT_NEAR(result.contact.half_width(), paper.half_width, 2e-3 * paper.half_width);
   EXPECT_NEAR(result.contact.peak_pressure, paper.peak_pressure, 1e-3 * paper.peak_pressure);
@@ -86,7 +86,7 @@ TEST_P(PaperFigure, LoadIsTheSlopeOfTheEnergyOverTheDistance) {
   };
   const double c = GetParam().distance;
   const double slope = (at(c + step).energy.value - at(c - step).energy.value) / (2 * step);
-  const double load = at(c).contact.work_conjugate_load;
+  const double load = at(c).contact.loads.work_conjugate;
   EXPECT_NEAR(slope, -load, 1e-5 * load);
 }
 
@@ -148,7 +148,7 @@ TEST_P(Symmetry, RotationByWholeCellsTurnsTheSolution) {
                   [&scene, turn](double z) { return scene.phi.slope(z + turn); }};
     const Result result = simulate(turned, parameters).result;
     EXPECT_EQ(result.contact.active_nodes, original.contact.active_nodes);
-    EXPECT_NEAR(result.contact.force, original.contact.force, 1e-12);
+    EXPECT_NEAR(result.contact.loads.total, original.contact.loads.total, 1e-12);
     EXPECT_NEAR(result.energy.value, original.energy.value, 1e-13);
     ASSERT_EQ(result.contact_rows.size(), original.contact_rows.size());
     for (unsigned int i = 0; i < result.contact_rows.size(); ++i)
@@ -185,7 +185,7 @@ TEST_P(Symmetry, RotationOntoTheSeamTurnsAdaptiveMeshesToo) {
       EXPECT_EQ(turned.mesh.n_unknowns, original.mesh.n_unknowns);
       EXPECT_EQ(turned.contact.active_nodes, original.contact.active_nodes);
       EXPECT_NEAR(turned.energy.value / original.energy.value, 1, 1e-12);
-      EXPECT_NEAR(turned.contact.force / original.contact.force, 1, 1e-11);
+      EXPECT_NEAR(turned.contact.loads.total / original.contact.loads.total, 1, 1e-11);
       EXPECT_NEAR(turned.certified->upper_bound, bounds.upper_bound, tolerance);
       EXPECT_NEAR(turned.certified->lower_bound, bounds.lower_bound, tolerance);
       EXPECT_NEAR(turned.certified->energy_norm / bounds.energy_norm, 1,
@@ -202,7 +202,7 @@ TEST_P(Symmetry, MirroringMirrorsTheSolution) {
                               "Cylinder/Radial force=r + sin(3*pi - z + 1)"}));
   EXPECT_GT(original.contact.active_nodes, 0u);
   EXPECT_EQ(mirror.contact.active_nodes, original.contact.active_nodes);
-  EXPECT_NEAR(mirror.contact.force, original.contact.force, 1e-12);
+  EXPECT_NEAR(mirror.contact.loads.total, original.contact.loads.total, 1e-12);
   EXPECT_NEAR(mirror.contact.ends->first, 3 * PI - original.contact.ends->second, 1e-10);
   const unsigned int n = original.contact_rows.size();
   ASSERT_EQ(mirror.contact_rows.size(), n);
@@ -219,7 +219,7 @@ TEST_P(Symmetry, MirroredZonesHaveMirroredMeshes) {
                              "Mesh/Angular cells=24",
                              assignment("Road/Contact zone", is_mirrored ? axis - end : begin) +
                                  ", " + digits(is_mirrored ? axis - begin : end)}))
-            .contact.force;
+            .contact.loads.total;
   EXPECT_NEAR(force[1] / force[0], 1, 1e-12);
 }
 
@@ -238,7 +238,7 @@ TEST_P(Symmetry, PowersOfTwoScaleTheSolutionToTheLastBit) {
       };
       const Result scaled = simulate(scene, own).result;
       EXPECT_EQ(scaled.history.size(), original.history.size());
-      EXPECT_EQ(scaled.contact.force, std::ldexp(original.contact.force, power));
+      EXPECT_EQ(scaled.contact.loads.total, std::ldexp(original.contact.loads.total, power));
       EXPECT_EQ(scaled.energy.value, std::ldexp(original.energy.value, 2 * power));
       EXPECT_EQ(scaled.certified->lower_bound,
                 std::ldexp(original.certified->lower_bound, 2 * power));

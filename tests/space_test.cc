@@ -101,13 +101,13 @@ TEST_P(Space, TracesReproducePolynomialsOfTheDegree) {
     field(node.dof) = std::pow(node.angle - middle, p);
   const SurfaceTrace trace(ring.space, field);
   unsigned int n_checked = 0;
-  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
-    const SurfaceFace& face = trace.faces()[i];
-    if (face.end > middle + PI - 1e-9) // its last node has the angle middle - pi
+  for (unsigned int i = 0; i < trace.edges().size(); ++i) {
+    const SurfaceEdge& edge = trace.edges()[i];
+    if (edge.end > middle + PI - 1e-9) // its last node has the angle middle - pi
       continue;
     ++n_checked;
     for (const double t : {0., 0.3, 0.8, 1.}) {
-      const double x = face.begin + t * (face.end - face.begin) - middle;
+      const double x = edge.begin + t * (edge.end - edge.begin) - middle;
       const auto [value, slope] = trace.value_and_slope(i, t);
       EXPECT_EQ(trace.value(i, t), value);
       EXPECT_NEAR(value, std::pow(x, p), 1e-12);

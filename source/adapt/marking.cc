@@ -46,7 +46,8 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
                                    indicators);
   std::vector<double> lengths(indicators.begin(), indicators.end());
   for (const auto& cell : triangulation.active_cell_iterators()) {
-    // The estimator has the root of the diameter in (r, z) as a factor.
+    // The estimator multiplies by the square root of the diameter in (r, z). This replaces it by
+    // the diameter in (r, b z).
     const Tensor<1, 2> diagonal = cell->vertex(3) - cell->vertex(0);
     lengths[cell->active_cell_index()] *=
         std::sqrt(std::hypot(diagonal[0], b * diagonal[1]) / diagonal.norm());
@@ -106,9 +107,9 @@ double natural_depth(const Scene& scene) {
 }
 
 /// Flags the cells of the same level above and below each flagged cell that is longer than the
-/// natural depth of the ring. The solution there varies over one length from hub to surface.
-/// Without whole columns, cells of two lengths would meet within that depth, which costs many
-/// cells.
+/// natural depth of the ring. There the solution has the same angular length scale from hub to
+/// surface. If only a part of the column were cut, hanging nodes would lie within that depth and
+/// cause further refinement.
 void flag_columns(Triangulation<2>& triangulation, double depth) {
   for (const auto& cell : triangulation.active_cell_iterators()) {
     if (cell->is_artificial() || !cell->refine_flag_set() ||

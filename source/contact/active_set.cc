@@ -17,14 +17,7 @@ constexpr double round_off = 1e-14;
 
 /// Errors of displacement and pressure over the residual of the equations. The pressure, a residual
 /// over a weight, is less accurate on small cells.
-constexpr double displacement_error = 1, pressure_error = 10; // over the residual
-
-unsigned int count_changes(const std::vector<bool>& active, const std::vector<bool>& next) {
-  unsigned int count = 0;
-  for (unsigned int i = 0; i < active.size(); ++i)
-    count += active[i] != next[i];
-  return count;
-}
+constexpr double displacement_error = 1, pressure_error = 10;
 
 /// Checks the contact conditions of a state whose equations hold up to @p residual, and proposes
 /// the @p next set.
@@ -39,7 +32,7 @@ ContactStep check_conditions(const ContactProblem& problem, const ContactSolutio
 
   ContactStep step = {};
   next = solution.active;
-  for (unsigned int i = 0; i < problem.size(); ++i)
+  for (unsigned int i = 0; i < problem.size(); ++i) {
     if (solution.active[i]) {
       ++step.active;
       step.lowest_pressure = std::min(step.lowest_pressure, pressure(i));
@@ -48,7 +41,8 @@ ContactStep check_conditions(const ContactProblem& problem, const ContactSolutio
       step.penetration = std::max(step.penetration, -gap(i));
       next[i] = gap(i) < least_gap;
     }
-  step.changed = count_changes(solution.active, next);
+    step.changed += next[i] != solution.active[i];
+  }
   return step;
 }
 
@@ -110,10 +104,10 @@ ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& pr
       changes_one_by_one = true;
       solution.remark = "the active set repeated itself; from then on one node changed at a time";
     }
-    if (changes_one_by_one)
+    if (changes_one_by_one) {
       keep_first_change(solution.active, next);
-    step.changed = count_changes(solution.active, next);
-    step.residual = static_cast<double>(step.changed) / problem.size();
+      step.changed = 1;
+    }
     solution.active = std::move(next);
   }
 }

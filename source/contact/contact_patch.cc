@@ -110,10 +110,7 @@ ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceN
                                   const ContactProblem& problem, const ContactSolution& solution) {
   const auto& [displacement, force] = solution.state;
   ContactResultants resultants = {};
-  const Loads loads = loads_of(problem, force);
-  resultants.force = loads.total;
-  resultants.vertical_load = loads.vertical;
-  resultants.work_conjugate_load = loads.work_conjugate;
+  resultants.loads = loads_of(problem, force);
   Profile profile = {{}, problem.gaps(displacement), problem.pressures(force)};
   for (unsigned int i = 0; i < nodes.size(); ++i) {
     resultants.active_nodes += solution.active[i];

@@ -42,10 +42,6 @@ struct Bracket {
     (excess > 0 ? is_near_tried : is_far_tried) = true;
   }
 
-  /// True if both ends are neighbouring numbers, between which the load changes by more than the
-  /// tolerance.
-  bool is_exhausted() const { return is_narrow(4e-16); }
-
   bool is_narrow(double tolerance) const {
     return is_near_tried && is_far_tried && far - near <= tolerance * near;
   }
@@ -111,13 +107,12 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
     return fixed_set_stiffness;
   // The pattern of nodes at the ends repeats with each cell. Two cells average over it.
   constexpr double n_cells = 2;
-  const Bracket limits(scene);
   const double c = scene.road.distance;
   const unsigned int degree = boundary.space().dof_handler().get_fe().degree;
   const double step =
       std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
                 loads_of(problem, solution.state.force).total / fixed_set_stiffness.total / 2,
-                c - limits.near, limits.far - c});
+                c - scene.least_distance, scene.road.greatest_distance() - c});
   if (!(step > 1e-10 * c))
     return fixed_set_stiffness;
   const auto loads_at = [&](double distance) {
@@ -137,8 +132,7 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
   constexpr double tolerance = 1e-10, tolerance_at_tangent = 1e-2;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
-  const Bracket limits(scene);
-  Bracket bracket = limits;
+  Bracket bracket(scene);
   RoadPosition road = {scene.road.distance, 0, start};
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
     const ContactProblem problem =
@@ -153,20 +147,20 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
       return road;
     const bool is_resolved =
         kind != LoadKind::work_conjugate || !reaches_tangent(problem, contact.active);
-    if (excess < 0 && road.distance == limits.near && is_resolved)
+    if (excess < 0 && road.distance == scene.least_distance && is_resolved)
       refuse_load(scene, "nearest to", road.distance, road.load);
-    if (excess > 0 && road.distance == limits.far)
+    if (excess > 0 && road.distance == scene.road.greatest_distance())
       refuse_load(scene, "farthest from", road.distance, road.load);
     bracket.narrow(road.distance, excess);
-    if (bracket.is_exhausted())
+    if (bracket.is_narrow(4e-16)) // both ends are neighbouring numbers
       return road;
     // Nearer roads have contact up to the tangent too, so that no mesh like this one does better.
     if (!is_resolved && excess < 0 &&
         (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent) ||
-         road.distance == limits.near))
+         road.distance == scene.least_distance))
       return road;
-    // While the same nodes stay in contact. The change of dphi/dc, which is 0 on a flat road, is
-    // left out of that of the work-conjugate load.
+    // The stiffness while the same nodes stay in contact. For the work-conjugate load it leaves
+    // out the change of dphi/dc, which is 0 on a flat road.
     const double stiffness =
         loads_of(problem, rate_of_approach(solver, problem, contact).force).of(kind);
     road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
@@ -194,23 +188,19 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load) {
 }
 
 bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
-  const unsigned int n = problem.size();
+  const int n = problem.size();
   const double tangent = problem.road.tangent_angle();
   const auto first = std::find(active.begin(), active.end(), true);
   if (first == active.end() || !problem.road.is_convex()) // others have no tangent
     return false;
-  const unsigned int left = first - active.begin(),
-                     right = n - 1 -
-                             (std::find(active.rbegin(), active.rend(), true) - active.rbegin());
+  const int left = first - active.begin(),
+            right = n - 1 - (std::find(active.rbegin(), active.rend(), true) - active.rbegin());
   const auto& x = problem.x;
-  // Beyond the last node of the zone the spacing goes on.
-  const double beyond_left = left > 0 ? x[left - 1]
-                             : n > 1  ? 2 * x[0] - x[1]
-                                      : x[0],
-               beyond_right = right + 1 < n ? x[right + 1]
-                              : n > 1       ? 2 * x[n - 1] - x[n - 2]
-                                            : x[0];
-  return beyond_left <= -tangent || beyond_right >= tangent;
+  const auto neighbour = [&](int i, int out) { // beyond the zone the spacing goes on
+    const int j = i + out;
+    return 0 <= j && j < n ? x[j] : n > 1 ? 2 * x[i] - x[i - out] : x[i];
+  };
+  return neighbour(left, -1) <= -tangent || neighbour(right, 1) >= tangent;
 }
 
 } // namespace rollwave

@@ -25,8 +25,8 @@ namespace {
                largest = 2 / largest_compliance(solver, problem, exact.active);
   std::ostringstream message;
   message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
-          << " with rho = " << rho / problem.unit << ": in " << steps
-          << " steps its residual fell to " << reached << ", wanted " << options.tolerance << "; ";
+          << " with rho = " << rho / problem.unit << ": after " << steps
+          << " steps its residual is " << reached << ", wanted " << options.tolerance << "; ";
   if (rho < safe)
     message << "raise Contact/Tolerance above round-off";
   else

@@ -44,19 +44,19 @@ AdmissibleTrace::AdmissibleTrace(const ContactBoundary& boundary, const Scene& s
     const auto contact = boundary.contact_number(node);
     return contact && active[*contact];
   };
-  for (unsigned int face = 0; face < discrete.faces().size(); ++face) {
-    const auto& nodes = discrete.faces()[face].nodes;
+  for (unsigned int edge = 0; edge < discrete.edges().size(); ++edge) {
+    const auto& nodes = discrete.edges()[edge].nodes;
     edges.push_back(
-        pieces_of(face, scene.zone(), std::all_of(nodes.begin(), nodes.end(), is_active)));
+        pieces_of(edge, scene.zone(), std::all_of(nodes.begin(), nodes.end(), is_active)));
   }
 }
 
 /// @param touches true if all nodes of the edge are in contact
 std::vector<AdmissibleTrace::Piece>
-AdmissibleTrace::pieces_of(unsigned int face, const std::pair<double, double>& zone,
+AdmissibleTrace::pieces_of(unsigned int edge, const std::pair<double, double>& zone,
                            bool touches) const {
   // The part of the edge in the zone, in terms of t.
-  const auto& [begin, end, nodes] = discrete.faces()[face];
+  const auto& [begin, end, nodes] = discrete.edges()[edge];
   const double length = end - begin;
   const bool begins_before = zone.first - begin <= angular_round_off;
   const bool ends_after = end - zone.second <= angular_round_off;
@@ -65,20 +65,20 @@ AdmissibleTrace::pieces_of(unsigned int face, const std::pair<double, double>& z
   if (touches && zone_begin == 0 && zone_end == 1)
     return {{Piece::Kind::touching, 0, 1}};
   if (zone_begin < zone_end)
-    return limited_pieces(face, zone_begin, zone_end);
+    return limited_pieces(edge, zone_begin, zone_end);
   return {{Piece::Kind::outside, 0, 1}};
 }
 
 std::vector<AdmissibleTrace::Piece>
-AdmissibleTrace::limited_pieces(unsigned int face, double zone_begin, double zone_end) const {
-  const auto excess_at = [&](double t) { return excess(face, t).value; };
-  const auto slope_at = [&](double t) { return excess(face, t).slope; };
+AdmissibleTrace::limited_pieces(unsigned int edge, double zone_begin, double zone_end) const {
+  const auto excess_at = [&](double t) { return excess(edge, t).value; };
+  const auto slope_at = [&](double t) { return excess(edge, t).slope; };
   std::vector<double> ends = {zone_begin};
   const auto split = [&](double left, double right, double at_left, double at_right) {
     if (at_left * at_right < 0)
       ends.push_back(root(excess_at, left, right, at_left, at_right));
   };
-  const QGaussLobatto<1> nodes(discrete.faces()[face].nodes.size());
+  const QGaussLobatto<1> nodes(discrete.edges()[edge].nodes.size());
   static const QGaussLobatto<1> samples(8);
   for (unsigned int k = 0; k + 1 < nodes.size(); ++k) {
     const double low = std::max(zone_begin, nodes.point(k)[0]);
@@ -114,28 +114,28 @@ AdmissibleTrace::limited_pieces(unsigned int face, double zone_begin, double zon
   return pieces;
 }
 
-SurfaceTrace::ValueAndSlope AdmissibleTrace::excess(unsigned int face, double t) const {
-  const auto& [begin, end, nodes] = discrete.faces()[face];
+SurfaceTrace::ValueAndSlope AdmissibleTrace::excess(unsigned int edge, double t) const {
+  const auto& [begin, end, nodes] = discrete.edges()[edge];
   const double z = begin + t * (end - begin);
-  const auto [value, slope] = discrete.value_and_slope(face, t);
+  const auto [value, slope] = discrete.value_and_slope(edge, t);
   return {value - phi(z), slope - phi.slope(z)};
 }
 
-AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int face, const Piece& piece,
+AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int edge, const Piece& piece,
                                                         double t) const {
   if (piece.kind == Piece::Kind::outside) {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
-    const SurfaceFace& edge = discrete.faces()[face];
-    return {piece.value_begin + slope * (t - piece.t_begin), slope / (edge.end - edge.begin), 0};
+    const auto& [begin, end, nodes] = discrete.edges()[edge];
+    return {piece.value_begin + slope * (t - piece.t_begin), slope / (end - begin), 0};
   }
-  const auto [above, slope] = excess(face, t);
+  const auto [above, slope] = excess(edge, t);
   if (piece.kind == Piece::Kind::limited && above <= 0)
     return {0, 0, -above};
   return {-above, -slope, 0};
 }
 
-double AdmissibleTrace::displacement(unsigned int face, const Piece& piece, double t) const {
-  return discrete.value(face, t) + correction(face, piece, t).value;
+double AdmissibleTrace::displacement(unsigned int edge, const Piece& piece, double t) const {
+  return discrete.value(edge, t) + correction(edge, piece, t).value;
 }
 
 } // namespace rollwave

@@ -4,7 +4,6 @@
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/scene/scene.h"
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
@@ -16,64 +15,60 @@ using namespace dealii;
 namespace {
 
 /// True if an edge lies wholly in the zone.
-bool is_in_zone(const SurfaceFace& face, const Scene& scene) {
-  return scene.is_in_zone(face.begin) && scene.is_in_zone(face.end);
+bool is_in_zone(const SurfaceEdge& edge, const Scene& scene) {
+  return scene.is_in_zone(edge.begin) && scene.is_in_zone(edge.end);
 }
 
-/// Nodal force over the node's share of the edges that lie in the zone, for all surface nodes.
+/// Nodal force over the node's share of the edge_pressures that lie in the zone, for all surface
+/// nodes.
 std::vector<double> nodal_pressures(const ContactBoundary& boundary, const Scene& scene,
                                     const ContactSolution& contact) {
   const RingSpace& space = boundary.space();
   const QGaussLobatto<1> lobatto(space.dof_handler().get_fe().degree + 1);
   std::vector<double> shares(space.surface_nodes().size()), pressures(shares.size());
-  for (const SurfaceFace& face : space.surface_faces())
-    if (is_in_zone(face, scene))
-      for (unsigned int k = 0; k < face.nodes.size(); ++k)
-        shares[face.nodes[k]] += lobatto.weight(k) * space.outer_radius() * (face.end - face.begin);
+  for (const SurfaceEdge& edge : space.surface_edges())
+    if (is_in_zone(edge, scene))
+      for (unsigned int k = 0; k < edge.nodes.size(); ++k)
+        shares[edge.nodes[k]] += lobatto.weight(k) * space.outer_radius() * (edge.end - edge.begin);
   for (unsigned int i = 0; i < shares.size(); ++i)
     if (const auto node = boundary.contact_number(i); node && shares[i] > 0)
       pressures[i] = std::max(0., contact.state.force(*node) / shares[i]);
   return pressures;
 }
 
-/// Moves forces off the edges beyond a vertex where contact ends: they would lie under a gap there.
-/// They stay if the pressure, continued along a line from the edge in contact, does not end within
-/// a third of the edge: the multiple of 1 - t nearest to 1 - t / t_0 is positive for t_0 > 1/3.
-void move_into_contact(const std::vector<SurfaceFace>& faces, const std::vector<double>& pressures,
-                       std::vector<EdgePressure>& edges) {
+/// Moves forces off the edge_pressures beyond a vertex where contact ends: they would lie under a
+/// gap there. They stay if the pressure, continued along a line from the edge in contact, does not
+/// end within a third of the edge: the multiple of 1 - t nearest to 1 - t / t_0 is positive for t_0
+/// > 1/3.
+void move_into_contact(const std::vector<SurfaceEdge>& edges, const std::vector<double>& pressures,
+                       std::vector<EdgePressure>& edge_pressures) {
   const auto n_pressed = [&](unsigned int edge) {
-    return std::count_if(faces[edge].nodes.begin(), faces[edge].nodes.end(),
+    return std::count_if(edges[edge].nodes.begin(), edges[edge].nodes.end(),
                          [&](unsigned int node) { return pressures[node] > 0; });
   };
-  const unsigned int degree = faces.front().nodes.size() - 1;
+  const unsigned int degree = edges.front().nodes.size() - 1;
   const double first_node = QGaussLobatto<1>(degree + 1).point(1)[0];
   const auto move = [&](unsigned int from, unsigned int to, unsigned int vertex_of_to) {
-    const bool is_in_zone = edges[to].mean > 0;
-    if (n_pressed(from) != 1 || n_pressed(to) < 2 || !is_in_zone)
+    // Edges outside of the zone have no pressure.
+    if (n_pressed(from) != 1 || n_pressed(to) < 2 || edge_pressures[to].mean == 0)
       return;
-    const auto& nodes = faces[to].nodes;
+    const auto& nodes = edges[to].nodes;
     const double last = pressures[nodes[vertex_of_to]],
                  before = pressures[nodes[vertex_of_to == 0 ? 1 : degree - 1]];
-    const double length = faces[from].end - faces[from].begin,
-                 length_inside = faces[to].end - faces[to].begin;
+    const double length = edges[from].end - edges[from].begin,
+                 length_inside = edges[to].end - edges[to].begin;
     if (last * first_node * length_inside >= (before - last) * length / 3)
       return;
-    edges[to].mean += edges[from].mean * length / length_inside;
-    edges[from] = {0, 0};
+    edge_pressures[to].mean += edge_pressures[from].mean * length / length_inside;
+    edge_pressures[from] = {0, 0};
   };
-  for (unsigned int i = 0; i < faces.size(); ++i) {
-    const unsigned int next = (i + 1) % faces.size();
-    if (pressures[faces[next].nodes.front()] > 0) {
+  for (unsigned int i = 0; i < edges.size(); ++i) {
+    const unsigned int next = (i + 1) % edges.size();
+    if (pressures[edges[next].nodes.front()] > 0) {
       move(i, next, 0);
       move(next, i, degree);
     }
   }
-}
-
-/// @throws ExcInternalError where the mean is negative
-EdgePressure nonnegative_pressure(double mean, double slope) {
-  AssertThrow(mean >= 0, ExcInternalError());
-  return {mean, std::clamp(slope, -2 * mean, 2 * mean)};
 }
 
 } // namespace
@@ -84,20 +79,21 @@ std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, 
   const unsigned int degree = space.dof_handler().get_fe().degree;
   const QGaussLobatto<1> lobatto(degree + 1);
   const std::vector<double> pressures = nodal_pressures(boundary, scene, contact);
-  std::vector<EdgePressure> edges;
-  for (const SurfaceFace& face : space.surface_faces()) {
-    edges.push_back({0, 0});
-    if (!is_in_zone(face, scene))
+  std::vector<EdgePressure> edge_pressures;
+  for (const SurfaceEdge& edge : space.surface_edges()) {
+    edge_pressures.push_back({0, 0});
+    if (!is_in_zone(edge, scene))
       continue;
     for (unsigned int k = 0; k <= degree; ++k)
-      edges.back().mean += lobatto.weight(k) * pressures[face.nodes[k]];
+      edge_pressures.back().mean += lobatto.weight(k) * pressures[edge.nodes[k]];
     if (degree > 1)
-      edges.back().slope = pressures[face.nodes[degree]] - pressures[face.nodes[0]];
+      edge_pressures.back().slope = pressures[edge.nodes[degree]] - pressures[edge.nodes[0]];
   }
-  move_into_contact(space.surface_faces(), pressures, edges);
-  for (EdgePressure& edge : edges)
-    edge = nonnegative_pressure(edge.mean, edge.slope);
-  return edges;
+  move_into_contact(space.surface_edges(), pressures, edge_pressures);
+  for (EdgePressure& edge :
+       edge_pressures) // so that lambda >= 0; the means are sums of such pressures
+    edge.slope = std::clamp(edge.slope, -2 * edge.mean, 2 * edge.mean);
+  return edge_pressures;
 }
 
 } // namespace rollwave

@@ -34,7 +34,7 @@ struct AdmissibleFields {
 /// Integrals over dr, or sums of them. They have a higher precision, so that sums over very many
 /// cells are more accurate than the bounds of J are apart.
 struct Integrals {
-  long double bound_squared = 0; ///< of eta^2 without the road's term
+  long double bound_squared = 0; ///< eta^2; at_surface() adds the road's term
   long double norm_squared = 0;
   long double work_of_force = 0;
 
@@ -71,7 +71,7 @@ public:
       u[i] = fields.displacement(of_cell[i]);
       psi[i] = fields.potential(of_cell[i]);
     }
-    if (const auto edge = space.surface_face(cell))
+    if (const auto edge = space.surface_edge(cell))
       return at_surface(*edge);
     Integrals sums;
     for (unsigned int p = 0; p < rule.size(); ++p)
@@ -93,17 +93,17 @@ private:
         const auto correction = fields.trace.correction(edge, piece, t);
         const ShapesAtPoint angular(lagrange, t);
         if (fields.force)
-          fields.force->values_on_line_at(number, t, moments);
-        sums.add(on_line(angular, correction, fields.force ? moments.data() : nullptr), weight);
+          fields.force->values_on_line_at(number, t, line_q);
+        sums.add(on_line(angular, correction, fields.force ? line_q.data() : nullptr), weight);
         sums.bound_squared +=
             2 * weight * scene.outer_radius * fields.pressures[edge](t) * correction.gap;
       }
     return sums;
   }
 
-  /// @param moments Q_h at the radii of the cell; nullptr without force
+  /// @param q_h values of Q_h at the radii of the cell; nullptr without force
   Integrals on_line(const ShapesAtPoint& angular, const AdmissibleTrace::Correction& correction,
-                    const double* moments) {
+                    const double* q_h) {
     for (unsigned int i = 0; i < n; ++i) {
       line_u[i] = line_u_z[i] = line_psi[i] = line_psi_z[i] = 0;
       for (unsigned int j = 0; j < n; ++j) {
@@ -128,13 +128,13 @@ private:
         psi_s += shape.potential_s * line_psi[i];
         psi_z += shape.potential * line_psi_z[i];
       }
-      const double moment = moments ? moments[q] : 0;
-      const double z_part = psi_s + v_z;              // tau_z = -alpha psi_s
-      const double r_part = moment - psi_z - r * v_r; // r tau_r = Q - psi_z
+      const double q_h_here = q_h ? q_h[q] : 0;
+      const double z_part = psi_s + v_z;                // tau_z = -alpha psi_s
+      const double r_part = q_h_here - psi_z - r * v_r; // r tau_r = Q_h - psi_z
       sums.bound_squared +=
           weight * r * alpha * z_part * z_part + radial->weight_over_r[q] * r_part * r_part;
       sums.norm_squared += weight * r * (alpha * v_z * v_z + v_r * v_r);
-      sums.work_of_force += weight * moment * v_r;
+      sums.work_of_force += weight * q_h_here * v_r;
     }
     return sums;
   }
@@ -154,7 +154,7 @@ private:
   unsigned int number = 0; ///< of the active cell
   const RadialShapes* radial = nullptr;
   /// The values of u, psi, their z-derivatives and Q_h along a line.
-  std::vector<double> line_u, line_u_z, line_psi, line_psi_z, moments;
+  std::vector<double> line_u, line_u_z, line_psi, line_psi_z, line_q;
 };
 
 /// The integrals over all cells, and the error bound of each own cell.
@@ -189,7 +189,7 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
     return {infinity, delta, infinity, -infinity, infinity, norm_squared, sampled_width};
   const double energy_norm = eta + delta;
   const double energy = norm_squared / 2 - work_of_force;
-  // Heights and moments are differences of radii.
+  // The heights of cells and Q_h are differences of radii, which cancel in a thin ring.
   const double cancellation = scene.outer_radius / (scene.outer_radius - scene.inner_radius);
   const double round_off = 1e-15 * cancellation * (norm_squared + std::abs(work_of_force));
   const double energy_error = delta * std::sqrt(norm_squared) + round_off;
@@ -217,8 +217,7 @@ Certificate certify(const ContactBoundary& boundary, const Scene& scene,
   const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
-  const ForceIntegral* const nonuniform = force && !force->is_uniform() ? force : nullptr;
-  const FieldVector potential = stress_function.solve(scene, pressures, nonuniform, statistics);
+  const FieldVector potential = stress_function.solve(scene, pressures, force, statistics);
   auto [integrals, cell_bounds] =
       integrate(boundary.space(), scene, {displacement, trace, pressures, potential, force},
                 stress_function.shapes());

@@ -108,7 +108,7 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
         const RadialShape &one = shapes.shapes[n * q + i], &other = shapes.shapes[n * q + j];
         shapes.products.stiffness(i, j) +=
             one.potential_s * other.potential_s * weight * r * shapes.alpha[q]; // ds = r alpha dr
-        shapes.products.mass(i, j) += one.potential * other.potential * weight / r;
+        shapes.products.mass(i, j) += one.potential * other.potential * shapes.weight_over_r[q];
       }
   return shapes;
 }

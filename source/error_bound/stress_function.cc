@@ -49,7 +49,7 @@ double fix_surface(const RingSpace& space, const std::vector<EdgePressure>& pres
   const QGaussLobatto<1> nodes(degree + 1);
   const auto area = [&](unsigned int edge) {
     return space.outer_radius() *
-           (space.surface_faces()[edge].end - space.surface_faces()[edge].begin);
+           (space.surface_edges()[edge].end - space.surface_edges()[edge].begin);
   };
   std::vector<double> at_begin = {0}; // of each edge
   for (unsigned int edge = 0; edge < pressures.size(); ++edge)
@@ -57,9 +57,9 @@ double fix_surface(const RingSpace& space, const std::vector<EdgePressure>& pres
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (cell->is_artificial() || !cell->at_boundary(1))
       continue;
-    const unsigned int edge = *space.surface_face(cell);
+    const unsigned int edge = *space.surface_edge(cell);
     const auto& [mean, slope] = pressures[edge];
-    // Not SurfaceFace::nodes, in which both sides of the seam are one.
+    // Not SurfaceEdge::nodes, in which both sides of the seam are one.
     const std::vector<Dof> dofs = edge_of(cell->face(1), degree).dofs;
     for (unsigned int k = 0; k <= degree; ++k) {
       const double t = nodes.point(k)[0];
@@ -176,7 +176,7 @@ StressFunction::StressFunction(const RingSpace& space, const Scene& scene, Solve
     solver = std::make_unique<AmgCg>(space);
   else
     solver = std::make_unique<SparseCholesky>(space);
-  const std::vector<EdgePressure> no_pressures(space.surface_faces().size());
+  const std::vector<EdgePressure> no_pressures(space.surface_edges().size());
   solver->set_matrix(make_constraints(space, scene, no_pressures), dual_matrices(space, radial),
                      statistics);
 }
@@ -191,7 +191,7 @@ FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePres
                     [&](auto dof) { return constraints.is_inhomogeneously_constrained(dof); }))
       constraints.distribute_local_to_global(no_load, dofs, load, matrix);
   });
-  if (force)
+  if (force && !force->is_uniform()) // a function of r does no work on periodic potentials
     force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
   FieldVector potential = solver->solve(load, statistics);

@@ -5,11 +5,14 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <boost/math/special_functions/legendre.hpp>
+#include <boost/math/tools/fraction.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -25,19 +28,23 @@ constexpr double negligible_exponent = 21;
 constexpr double first_panel = 64;
 constexpr int n_panels = 16;
 
-/// x J_k'(x) / J_k(x) for 0 <= x <= k, by the continued fraction of J_(k+1)/J_k (W. J. Lentz).
+/// The numerators -x^2 and denominators 2 (k + n), n = 1, 2, ..., of a continued fraction.
+struct BesselFraction {
+  using result_type = std::pair<double, double>;
+  double k, x;
+  int n = 0;
+
+  result_type operator()() { return {-x * x, 2 * (k + ++n)}; }
+};
+
+/// x J_k'(x) / J_k(x) for 0 <= x <= k, by the continued fraction of J_(k+1)/J_k,
+/// k - x^2 / (2 (k + 1) - x^2 / (2 (k + 2) - ...)).
 double logarithmic_derivative(double k, double x) {
-  const double x_squared = x * x;
-  double fraction = 2 * (k + 1), c = fraction, d = 0;
-  for (int n = 2; n < 100000; ++n) {
-    const double b = 2 * (k + n);
-    d = 1 / (b - x_squared * d);
-    c = b - x_squared / c;
-    fraction *= c * d;
-    if (std::abs(c * d - 1) < std::numeric_limits<double>::epsilon())
-      break;
-  }
-  return k - x_squared / fraction;
+  BesselFraction terms = {k, x};
+  std::uintmax_t most_terms = 100000;
+  return k - x * x /
+                 boost::math::tools::continued_fraction_b(
+                     terms, std::numeric_limits<double>::epsilon(), most_terms);
 }
 
 /// Values at Gauss-Legendre points.
@@ -176,14 +183,12 @@ double BesselModes::compliance(double k) const {
   return sum_of_products(spectral_integration().interpolation(t), panels[panel]) / k;
 }
 
-BesselModes::Profile BesselModes::profile(double k, const std::vector<double>& radii) const {
+std::vector<double> BesselModes::profile(double k, const std::vector<double>& radii) const {
   const double depth = log_of_ratio(b, a);
-  Profile profile;
+  std::vector<double> profile;
   if (k == 0) {
-    for (const double r : radii) {
-      profile.value.push_back(log_of_ratio(r, a) / depth);
-      profile.derivative.push_back(1 / (r * depth));
-    }
+    for (const double r : radii)
+      profile.push_back(log_of_ratio(r, a) / depth);
     return profile;
   }
 
@@ -200,9 +205,7 @@ BesselModes::Profile BesselModes::profile(double k, const std::vector<double>& r
     const AtPoints weights = rule.interpolation(1 + 2 * std::log1p((r - b) / b) / depth);
     const double share = has_hub ? 1 - sum_of_products(weights, q_to_the_right) / samples.q : 1;
     const double g = std::exp(-sum_of_products(weights, samples.exponent));
-    const double theta = logarithmic_derivative(k, k * omega * r);
-    profile.value.push_back(g * share);
-    profile.derivative.push_back((theta * g * share + (has_hub ? 1 / (g * samples.q) : 0)) / r);
+    profile.push_back(g * share);
   }
   return profile;
 }

@@ -51,9 +51,8 @@ ExactSolution without_contact(const ExactScene& scene) {
   const double f = scene.force_density;
   const double work =
       2 * numbers::PI * f * f * contact_free_unit_work(scene.inner_radius, scene.outer_radius);
-  ExactSolution solution{scene, 0, 0, 0, 0, -work / 2, work, 0, 0, 0, 0, 0.5, true, {}};
-  solution.pressure = {lowest_point, 1, 1, {0.}};
-  return solution;
+  const GegenbauerPressure no_pressure = {lowest_point, 1, 1, {0.}};
+  return {scene, 0, {0, 0, 0}, -work / 2, work, 0, 0, 0, 0, 0.5, true, no_pressure};
 }
 
 ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galerkin, double w) {
@@ -67,8 +66,8 @@ ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galer
   solution.pressure = {lowest_point, w, galerkin.nu, coefficients};
 
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
-  solution.force = b * solution.pressure.fourier_integral(0).real();
-  solution.vertical_load = b * solution.pressure.fourier_integral(1).real();
+  solution.loads.total = b * solution.pressure.fourier_integral(0).real();
+  solution.loads.vertical = b * solution.pressure.fourier_integral(1).real();
   const Road road = scene.road();
   const auto contact_work = [&](const std::function<double(double)>& function) {
     const Vector<double> moments = galerkin.moments(w, function);
@@ -77,13 +76,14 @@ ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galer
       sum += b * w * trial.coefficients(i) * moments(i);
     return sum;
   };
-  solution.work_conjugate_load =
+  solution.loads.work_conjugate =
       contact_work([&](double x) { return road.distance_derivative(x); });
   const double pressure_times_road = contact_work([&](double x) { return road.displacement(x); });
 
   // (f, u) = a(u_f, u) = (f, u_f) - b int lambda u_f dz
   const double work_of_f_alone = 2 * numbers::PI * f * f * contact_free_unit_work(a, b);
-  const double work_of_f = work_of_f_alone - scene.contact_free_displacement(b) * solution.force;
+  const double work_of_f =
+      work_of_f_alone - scene.contact_free_displacement(b) * solution.loads.total;
   solution.norm_squared = work_of_f - pressure_times_road;
   solution.energy = solution.norm_squared / 2 - work_of_f;
   if (galerkin.nu < 0.5)
@@ -113,7 +113,8 @@ struct Limit {
   double relative_accuracy() const { return std::max(std::abs(correction / value), 3e-11); }
 };
 
-/// The series with @p end_exponent, grown three times by doubling, and the limit of its numbers.
+/// The solution from series of 12, 24 and 48 terms with @p end_exponent. Its numbers are the limits
+/// of the three.
 ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
                               double end_exponent) {
   const double crossing = crossing_angle(scene);
@@ -129,24 +130,26 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
     }
     sequence.push_back(solution_at(scene, galerkin, w));
   }
-  const auto limit = [&](auto member) {
-    return Limit(sequence[0].*member, sequence[1].*member, sequence[2].*member);
+  const auto limit = [&](auto number) {
+    return Limit(number(sequence[0]), number(sequence[1]), number(sequence[2]));
+  };
+  const auto limit_of_load = [&](double Loads::*load) {
+    return limit([load](const ExactSolution& exact) { return exact.loads.*load; });
   };
   ExactSolution solution = sequence.back();
-  const Limit force = limit(&ExactSolution::force);
-  const Limit energy = limit(&ExactSolution::energy);
-  const Limit half_width = limit(&ExactSolution::half_width);
-  solution.force = force.value;
+  const Limit force = limit_of_load(&Loads::total);
+  const Limit energy = limit(std::mem_fn(&ExactSolution::energy));
+  const Limit half_width = limit(std::mem_fn(&ExactSolution::half_width));
+  solution.loads = {force.value, limit_of_load(&Loads::vertical).value,
+                    limit_of_load(&Loads::work_conjugate).value};
   solution.force_accuracy = force.relative_accuracy();
   solution.energy = energy.value;
   solution.energy_accuracy = energy.relative_accuracy();
   solution.half_width = half_width.value;
   solution.half_width_accuracy = half_width.relative_accuracy();
-  for (const auto member : {&ExactSolution::vertical_load, &ExactSolution::work_conjugate_load,
-                            &ExactSolution::norm_squared})
-    solution.*member = limit(member).value;
+  solution.norm_squared = limit(std::mem_fn(&ExactSolution::norm_squared)).value;
   if (end_exponent > 0)
-    solution.peak_pressure = limit(&ExactSolution::peak_pressure).value;
+    solution.peak_pressure = limit(std::mem_fn(&ExactSolution::peak_pressure)).value;
   return solution;
 }
 

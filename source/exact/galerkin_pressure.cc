@@ -70,7 +70,8 @@ struct GalerkinPressure::ModeSum {
         throw NotSolved(
             "the exact solution would need too many modes: the contact is long compared with "
             "the thickness of the ring");
-      // Euler and Maclaurin: the midpoint rule exceeds the integral by -F'/24 at its begin.
+      // By the formula of Euler and Maclaurin the sum, a midpoint rule, exceeds the integral by
+      // F'/24 at the lower end. F' is taken as a difference quotient.
       weight.back() -= 2. / 24;
       add(single + 1, 2. / 24);
       const auto& points = boost::math::quadrature::gauss<double, 16>::abscissa();
@@ -118,17 +119,13 @@ GalerkinPressure::Trial GalerkinPressure::solve(double w) const {
   const Road road = scene.road();
   const Vector<double> rhs = moments(w, [&](double x) { return free - road.displacement(x); });
   LAPACKFullMatrix<double> system(n);
-  Trial trial;
-  trial.coefficients.reinit(n);
-  for (unsigned int i = 0; i < n; ++i) {
+  for (unsigned int i = 0; i < n; ++i)
     for (unsigned int j = 0; j < n; ++j)
       system(i, j) = matrix(i, j);
-    trial.coefficients(i) = rhs(i);
-  }
+  Trial trial = {Vector<double>(rhs.begin(), rhs.begin() + n), rhs(n)};
   system.set_property(LAPACKSupport::symmetric);
   system.compute_cholesky_factorization();
   system.solve(trial.coefficients);
-  trial.defect = rhs(n);
   for (unsigned int j = 0; j < n; ++j)
     trial.defect -= matrix(n, j) * trial.coefficients(j);
   return trial;

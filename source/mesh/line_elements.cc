@@ -35,8 +35,8 @@ std::vector<double> graded_radii(double begin, double end) {
 unsigned int points_for_pole(double begin, double end, unsigned int degree) {
   // With the ratio q of the radii at the ends, 1/r is analytic in the ellipse around them whose
   // half-axes add up to rho = (sqrt(q) + 1)^2 / (q - 1) half lengths. For polynomials of degree 2 p
-  // over r, n points err by rho^(2 p - 2 n). Fewer would not do: without contact the bound is an
-  // equality.
+  // over r, n points err by rho^(2 p - 2 n). Without contact the error bound can equal the error,
+  // and fewer points would then put it below.
   const double q = std::min(end / begin, 2.); // longer intervals are cut
   const double rho = std::pow(std::sqrt(q) + 1, 2) / (q - 1);
   return degree + std::max(2., std::ceil(6.5 / std::log10(rho)));

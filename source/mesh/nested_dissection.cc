@@ -47,9 +47,9 @@ struct Box {
   }
 };
 
-/// How well a line divides nodes: the squared number of those on it, the entries that it adds to
-/// the factor, for each pair of nodes that it separates. 0 if one half and the line are empty;
-/// infinite if the line separates no nodes.
+/// The cost of a line: the squared number of nodes on it, which is the number of entries that it
+/// adds to the factor, divided by the number of pairs of nodes that it separates. If it separates
+/// none: 0 if all nodes lie on one side and not all at one place, otherwise infinity.
 double cost(const Box& box, unsigned int direction, const Range& nodes) {
   double below = 0, on = 0, lowest = nodes.first->place[direction], highest = lowest;
   for (auto node = nodes.first; node != nodes.second; ++node) {

@@ -123,18 +123,18 @@ void RingSpace::find_surface(const Scene& scene) {
   for (unsigned int first = 0; first < edges.size(); first += element.degree + 1) {
     const double begin = edges[first].angle, end = edges[first + element.degree].angle,
                  turned = turn((begin + end) / 2);
-    face_from[edges[first].begin] = faces.size();
-    faces.push_back({begin - turned, end - turned, {}});
+    edge_from[edges[first].begin] = edges_of_surface.size();
+    edges_of_surface.push_back({begin - turned, end - turned, {}});
     for (unsigned int k = 0; k <= element.degree; ++k)
-      faces.back().nodes.push_back(number_of_dof.at(edges[first + k].dof));
+      edges_of_surface.back().nodes.push_back(number_of_dof.at(edges[first + k].dof));
   }
 }
 
 std::optional<unsigned int>
-RingSpace::surface_face(const Triangulation<2>::active_cell_iterator& cell) const {
+RingSpace::surface_edge(const Triangulation<2>::active_cell_iterator& cell) const {
   if (cell->vertex(1)[0] != radius) // quicker than at_boundary(), and asked for every cell
     return {};
-  return face_from.at(cell->vertex(1)[1]);
+  return edge_from.at(cell->vertex(1)[1]);
 }
 
 const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {

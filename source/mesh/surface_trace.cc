@@ -5,22 +5,21 @@
 namespace rollwave {
 
 SurfaceTrace::SurfaceTrace(const RingSpace& space, const FieldVector& field)
-    : edges(space.surface_faces()), nodal_values(space.surface_values(field)),
+    : surface_edges(space.surface_edges()), nodal_values(space.surface_values(field)),
       shapes(lobatto_lagrange(space.dof_handler().get_fe().degree)) {}
 
-double SurfaceTrace::value(unsigned int face, double t) const {
-  return value_and_slope(face, t).value;
+double SurfaceTrace::value(unsigned int edge, double t) const {
+  return value_and_slope(edge, t).value;
 }
 
-SurfaceTrace::ValueAndSlope SurfaceTrace::value_and_slope(unsigned int face, double t) const {
-  const SurfaceFace& edge = edges[face];
-  const double length = edge.end - edge.begin;
+SurfaceTrace::ValueAndSlope SurfaceTrace::value_and_slope(unsigned int edge, double t) const {
+  const auto& [begin, end, nodes] = surface_edges[edge];
   ValueAndSlope sum = {0, 0};
   double both[2];
   for (unsigned int k = 0; k < shapes.size(); ++k) {
     shapes[k].value(t, 1, both);
-    sum.value += nodal_values[edge.nodes[k]] * both[0];
-    sum.slope += nodal_values[edge.nodes[k]] * both[1] / length;
+    sum.value += nodal_values[nodes[k]] * both[0];
+    sum.slope += nodal_values[nodes[k]] * both[1] / (end - begin);
   }
   return sum;
 }

@@ -3,6 +3,8 @@
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/text.h"
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <array>
 #include <cctype>
 #include <cstdio>
@@ -12,14 +14,6 @@ namespace rollwave {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// @p text with each single quote replaced.
-std::string with_quotes_as(const std::string& replacement, const std::string& text) {
-  std::string result;
-  for (const char letter : text)
-    result += letter == '\'' ? replacement : std::string(1, letter);
-  return result;
-}
 
 /// Runs a command of the shell. Returns true if it succeeds. @param messages what it prints
 bool run_shell(const std::string& command, std::string& messages) {
@@ -40,7 +34,7 @@ bool is_complete(const fs::path& svg) {
 } // namespace
 
 std::string in_single_quotes(const std::string& text) {
-  std::string line = with_quotes_as("''", text);
+  std::string line = boost::algorithm::replace_all_copy(text, "'", "''");
   for (char& letter : line)
     if (std::iscntrl(static_cast<unsigned char>(letter)))
       letter = ' '; // the end of a line would end the string
@@ -59,10 +53,12 @@ void draw(const Picture& picture, const fs::path& directory, const std::string& 
                     picture.script + "set output\n");
   AtomicFile file(directory / svg);
   std::string messages;
-  if (run_shell("cd '" + with_quotes_as("'\\''", fs::absolute(directory).string()) +
-                    "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() +
-                    "'\" " + script + " 2>&1",
-                messages) &&
+  if (run_shell(
+          "cd '" +
+              boost::algorithm::replace_all_copy(fs::absolute(directory).string(), "'", "'\\''") +
+              "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() + "'\" " +
+              script + " 2>&1",
+          messages) &&
       is_complete(file.part())) {
     written.n_bytes += file.commit();
     written.files.push_back(directory / svg);

@@ -11,7 +11,7 @@
 
 namespace rollwave {
 
-Progress report_progress(std::ostream& out, const Units& units) {
+Progress report_progress(std::ostream& out, const Scene& scene) {
   Progress progress;
   constexpr double long_seconds = 1;
   const auto since_last_line = std::make_shared<dealii::Timer>();
@@ -28,16 +28,21 @@ Progress report_progress(std::ostream& out, const Units& units) {
       since_last_line->restart();
     }
   };
-  progress.mesh_solved = [&out, units](unsigned int number, const CycleFigures& mesh) {
+  progress.mesh_solved = [&out, units = scene.units, has_load = scene.load.has_value()](
+                             unsigned int number, const CycleFigures& mesh) {
+    const Quantity quantity = has_load ? Quantity::length : Quantity::force;
     if (number == 1)
       out << "Adaptive refinement\n"
-          << " mesh    cells unknowns contact steps  indicated error"
-          << units.in_brackets(Quantity::energy_norm) << "  certified, relative\n";
-    const double indicated = mesh.indicated * units.of(Quantity::energy_norm);
+          << " mesh    cells unknowns  steps  certified  "
+          << (has_load ? "   distance c" : "vertical load") << units.in_brackets(quantity)
+          << "  indicated error" << units.in_brackets(Quantity::energy_norm) << '\n';
+    const double indicated = mesh.indicated * units.of(Quantity::energy_norm),
+                 result = (has_load ? mesh.road_distance : mesh.vertical_load) * units.of(quantity);
     out << std::setw(5) << number << std::setw(9) << mesh.n_cells << std::setw(9) << mesh.n_unknowns
-        << std::setw(14) << mesh.contact_steps << std::setw(17)
-        << (mesh.indicated > 0 ? rounded(indicated, 3) : "-") << std::setw(21)
-        << (mesh.certified ? rounded_up(*mesh.certified, 3) : "-") << '\n'
+        << std::setw(7) << mesh.contact_steps << std::setw(11)
+        << (mesh.certified ? rounded_up(*mesh.certified, 3) : "-") << std::setw(15)
+        << rounded(result, 8) << std::setw(17) << (mesh.indicated > 0 ? rounded(indicated, 3) : "-")
+        << '\n'
         << std::flush;
   };
   return progress;

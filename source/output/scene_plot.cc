@@ -13,8 +13,8 @@ namespace rollwave {
 
 namespace {
 
-/// Half the range of angles around the contact, which is shown with half as much on both sides;
-/// without contact the gap is to be seen, at one node at least.
+/// Half of the range of angles that is shown: 1.5 times the farther end of contact. Without contact
+/// the range shows the gap, and has at least one node.
 double shown_angle(const Scene& scene, const Result& result) {
   if (!result.contact.ends) {
     double nearest = std::numeric_limits<double>::max(); // node to the lowest point
@@ -47,7 +47,7 @@ double drawn_length(const Scene& scene) {
   return has_own_units(scene.units) ? scene.units.of(Quantity::length) : 1 / scene.outer_radius;
 }
 
-/// In single quotes for gnuplot, without the first and the last.
+/// The title as the inside of a string of gnuplot in single quotes.
 std::string title_of(const Scene& scene, const Result& result) {
   const double b = scene.outer_radius;
   const Units& units = scene.units;
@@ -60,7 +60,7 @@ std::string title_of(const Scene& scene, const Result& result) {
     title << "a = " << in_units(scene.inner_radius, Quantity::length)
           << ", b = " << in_units(b, Quantity::length)
           << ", c = " << in_units(scene.road.distance, Quantity::length)
-          << ", vertical load = " << in_units(result.contact.vertical_load, Quantity::force)
+          << ", vertical load = " << in_units(result.contact.loads.vertical, Quantity::force)
           << "'.\"\\n\".'"
           << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
           << ", rho = " << units.material.density << units.after(Quantity::density)
@@ -68,14 +68,15 @@ std::string title_of(const Scene& scene, const Result& result) {
           << ", omega / critical = " << scene.angular_velocity * b;
   else
     title << "omega b = " << scene.angular_velocity * b << ",  c / b = " << scene.road.distance / b
-          << ",  a / b = " << scene.inner_radius / b << ",  F / b = " << result.contact.force / b;
+          << ",  a / b = " << scene.inner_radius / b
+          << ",  F / b = " << result.contact.loads.total / b;
   if (scene.road.curvature != 0)
     title << ",  kappa b = " << scene.road.curvature * b;
   title << ";  Q" << result.mesh.degree << ", " << (result.rho > 0 ? "Uzawa" : "active set");
   return title.str();
 }
 
-std::string pressure_unit(const Units& units) {
+std::string pressure_unit_text(const Units& units) {
   const std::string name = units.in_brackets(Quantity::pressure);
   return name.empty() && units.material.shear_modulus == 1 ? " / modulus" : name;
 }
@@ -105,7 +106,8 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
   script << "EOD\n";
 }
 
-/// The scene, and at the same scale in x and y what is around the contact.
+/// gnuplot's commands for the whole scene and for the surroundings of the contact, with the same
+/// scale in x and y.
 const char* const pictures = R"(
 set style line 1 linewidth 2.5 linecolor rgb '#1f5fa8'
 set style line 2 linewidth 1.5 dashtype 2 linecolor rgb '#707070'
@@ -203,7 +205,7 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.contact.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit(scene.units))
+  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit_text(scene.units))
          << " offset -1\n"
          << pressure << "unset multiplot\n";
   return {script.str(), width, height};

@@ -60,12 +60,14 @@ void report_history(std::ostream& out, const Result& result, const Units& units)
     table.add_value("changed", history[step].changed);
     table.add_value(penetration, history[step].penetration * length);
     table.add_value(lowest_pressure, history[step].lowest_pressure * pressure);
-    table.add_value("residual", history[step].residual);
+    if (result.rho > 0)
+      table.add_value("residual", history[step].residual);
   }
-  for (const std::string& column : {penetration, lowest_pressure, std::string("residual")}) {
-    table.set_precision(column, 3);
-    table.set_scientific(column, true);
-  }
+  for (const std::string& column : {penetration, lowest_pressure, std::string("residual")})
+    if (result.rho > 0 || column != "residual") {
+      table.set_precision(column, 3);
+      table.set_scientific(column, true);
+    }
   out << table_text(table);
   if (history.size() > most_lines)
     out << "... steps " << most_lines / 2 + 1 << " to " << history.size() - most_lines / 2
@@ -104,7 +106,7 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
   if (outside > 0)
     out << "           J(u_h) is " << rounded(outside * units.of(Quantity::energy), 2)
         << units.after(Quantity::energy)
-        << " outside: the bounds are those of the exact solution\n";
+        << " outside of these bounds, which hold for the exact J(u)\n";
   if (certified.sampled_width > 0)
     out << "           features of the force smaller than "
         << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
@@ -194,7 +196,7 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   const MeshFigures& mesh = result.mesh;
   const double length = units.of(Quantity::length);
   out << "Mesh       Q" << mesh.degree << ", " << mesh.n_cells << " cells, " << mesh.n_unknowns
-      << " unknowns, " << mesh.n_contact_nodes << " contact nodes, cells from "
+      << " unknowns, " << mesh.n_contact_nodes << " contact nodes, cell diameters from "
       << mesh.h_min * length << " to " << mesh.h_max * length << units.after(Quantity::length)
       << '\n';
   if (!result.distance_history.empty())

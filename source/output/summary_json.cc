@@ -65,6 +65,8 @@ Json cycles_json(const Result& result, const Units& units) {
     json.push_back({{"cells", cycle.n_cells},
                     {"dofs", cycle.n_unknowns},
                     {"contact_steps", cycle.contact_steps},
+                    {"road_distance", cycle.road_distance * units.of(Quantity::length)},
+                    {"vertical_load", cycle.vertical_load * units.of(Quantity::force)},
                     {"indicated_error", nullptr},
                     {"certified_relative", nullptr}});
     if (cycle.indicated > 0)

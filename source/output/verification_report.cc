@@ -49,11 +49,12 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };
-  add("force F", Quantity::force, result.contact.force, exact.force, exact.force_accuracy);
-  add("vertical load", Quantity::force, result.contact.vertical_load, exact.vertical_load,
+  add("force F", Quantity::force, result.contact.loads.total, exact.loads.total,
       exact.force_accuracy);
-  add("work-conjugate load G", Quantity::force, result.contact.work_conjugate_load,
-      exact.work_conjugate_load, exact.force_accuracy);
+  add("vertical load", Quantity::force, result.contact.loads.vertical, exact.loads.vertical,
+      exact.force_accuracy);
+  add("work-conjugate load G", Quantity::force, result.contact.loads.work_conjugate,
+      exact.loads.work_conjugate, exact.force_accuracy);
   add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
   add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,

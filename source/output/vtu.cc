@@ -128,7 +128,7 @@ void write_field_data(std::ostream& out, const Solution& solution) {
   for (const auto& [name, value, quantity] :
        {std::tuple("omega", solution.scene.angular_velocity, Quantity::angular_velocity),
         {"c", solution.scene.road.distance, Quantity::length},
-        {"F", solution.result.contact.force, Quantity::force}})
+        {"F", solution.result.contact.loads.total, Quantity::force}})
     out << "<DataArray type=\"Float64\" Name=\"" << name << units.in_brackets(quantity)
         << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value * units.of(quantity)
         << "</DataArray>\n";

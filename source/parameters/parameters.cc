@@ -75,7 +75,7 @@ void declare_road(Keys& keys, RoadOptions& road) {
            "\"none\", or instead of the distance the load on the whole width: a force, "
            "greater than 0. A file gives the distance or the load; either one replaces "
            "the other where the command line or a study gives it.",
-           {0, "L", Quantity::force});
+           {0, "", Quantity::force});
   keys.add_choice<LoadKind>(
       "Load kind", road.load_kind,
       {{"vertical", LoadKind::vertical},
@@ -92,9 +92,10 @@ void declare_road(Keys& keys, RoadOptions& road) {
       "Contact zone", road.contact_zone, "auto",
       Patterns::Tuple(",", Patterns::Double(), Patterns::Double()),
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
-      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\" is where the "
-      "surface without contact would be beyond the road, and two cells more, but never beyond "
-      "phi < b; where the force is not uniform, it is where phi < b.",
+      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\": the angles "
+      "at which the surface without contact would penetrate the road, and two cells more at each "
+      "end, but only where the road is nearer than 2 b to the axle; all of these angles if the "
+      "force is not uniform.",
       {Affects::mesh, "[z0, z1]"});
 }
 
@@ -164,7 +165,8 @@ void declare_contact(Keys& keys, ContactOptions& contact) {
   keys.add_choice<UzawaStop>(
       "Stopping rule", contact.stop, {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
       "The quantity that Uzawa's method compares with the tolerance, in the l2 norm over the "
-      "contact nodes, relative to that of u. \"gap\": |p_new - p| / rho, the violation of the "
+      "contact nodes, relative to that of u. \"gap\": |change of the pressure| / rho, the "
+      "violation of the "
       "contact conditions. \"change\": the change of u in one step.",
       {Affects::uzawa});
   keys.add("Tolerance", contact.tolerance, Patterns::Double(1e-15, 0.1),
@@ -226,14 +228,14 @@ const Setting* last_unless_none(const std::vector<Setting>& settings, const char
 void KeysOfParameters::set(const std::vector<Setting>& settings) {
   for (const Setting& setting : settings)
     keys.set(setting);
-  const Setting *const distance = last_unless_none(settings, "Distance"), *const load =
-                                                                              last_unless_none(
-                                                                                  settings, "Load");
+  const Setting* const distance = last_unless_none(settings, "Distance");
+  const Setting* const load = last_unless_none(settings, "Load");
   if (!distance && !load && last_of(settings, "Road/Distance"))
-    throw BadInput(refusal(settings, BadValue("Road", "Distance", "Road/Load is not given")));
+    throw BadInput(
+        refusal(settings, BadValue("Road", "Distance", "\"none\" needs a load: set Road/Load")));
   if (distance && load && distance->origin == load->origin)
     refuse_distance_and_load(settings);
-  if (load && (!distance || load > distance))
+  if (load && (!distance || load > distance)) // later in the vector of settings
     keys.set({"Road", "Distance", "none", load->origin});
   else if (load)
     keys.set({"Road", "Load", "none", distance->origin});

@@ -157,7 +157,8 @@ void declare_study(Keys& keys, StudyOptions& study) {
       "one for each run in the order of the runs, separated by commas, - where unknown.");
   keys.add("True errors", study.true_errors, Patterns::Bool(),
            "\"true\" or \"false\": compare every run of a study with the exact solution of its "
-           "scene, where it is known, and measure its full time.");
+           "scene, where it is known. The runs then share no work, so that the seconds of each "
+           "are complete.");
   keys.declare(
       "Files of each run", "",
       [&study](const Setting& setting) {

@@ -33,17 +33,15 @@ std::string reason_of(const std::exception& failure) {
 
 } // namespace
 
-bool attempt(const std::function<void()>& compute, const std::string& missing,
+void attempt(const std::function<void()>& compute, const std::string& missing,
              const std::string& advice, MPI_Comm communicator,
              std::vector<std::string>& shortfalls) {
   try {
     compute();
-    return true;
   } catch (const std::exception& failure) {
     if (!is_serial(communicator) && !dynamic_cast<const NotSolved*>(&failure))
       throw;
     shortfalls.push_back(missing + ": " + reason_of(failure) + "; " + advice);
-    return false;
   }
 }
 

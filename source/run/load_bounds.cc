@@ -8,8 +8,6 @@
 
 namespace rollwave {
 
-using namespace dealii;
-
 namespace {
 
 /// The certified bounds of E at another distance, on the same mesh.

@@ -61,12 +61,12 @@ Quantities load_quantities() {
   return {
       {"contact.vertical_load", "vertical load", "", Quantity::force,
        Shown::screen | Shown::curve | Shown::varied_table, all_digits,
-       [](const Result& r) { return r.contact.vertical_load; }},
+       [](const Result& r) { return r.contact.loads.vertical; }},
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
-       [](const Result& r) { return r.contact.force; }},
+       [](const Result& r) { return r.contact.loads.total; }},
       {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force, Shown::screen,
-       all_digits, [](const Result& r) { return r.contact.work_conjugate_load; }},
+       all_digits, [](const Result& r) { return r.contact.loads.work_conjugate; }},
       {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
        Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::lower)},
       {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
@@ -130,7 +130,7 @@ Quantities energy_quantities() {
        optional_member(&Result::certified, &CertifiedError::relative)},
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
        0, 3, optional_member(&Result::certified, &CertifiedError::force_data)},
-      {"error.force_sampled_width", "features of the force that are smaller may be undetected", "",
+      {"error.force_sampled_width", "width below which features of the force may be undetected", "",
        Quantity::length, 0, 3,
        [](const Result& r) -> std::optional<double> {
          if (!r.certified)
@@ -155,7 +155,7 @@ Quantities error_quantities() {
        if_resolved(optional_member(&Result::errors, &TrueErrors::relative_energy_norm))},
       {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,
        optional_member(&Result::errors, &TrueErrors::l2_norm)},
-      {"error.exact_pressure", "true error of the pressure in the norm of [.,.]_h", "pressure",
+      {"error.exact_pressure", "true error of the pressure in the discrete L2 norm", "pressure",
        Quantity::pressure_norm, Shown::orders, 3,
        optional_member(&Result::errors, &TrueErrors::pressure)},
       {"error.exact_force", "true error of F", "error of F", Quantity::force, Shown::orders, 3,
@@ -164,19 +164,19 @@ Quantities error_quantities() {
        optional_member(&Result::errors, &TrueErrors::energy)},
       {"error.exact_half_width", "true error of the half-width", "", Quantity::angle, 0, 3,
        optional_member(&Result::errors, &TrueErrors::half_width)},
-      {"error.exact_distance", "true error of the distance for a given load", "", Quantity::length,
-       0, 3,
+      {"error.exact_distance", "true error of the distance for a given load", "error of c",
+       Quantity::length, Shown::table | Shown::orders, 3,
        [](const Result& r) -> std::optional<double> {
          if (!r.errors || !r.errors->exact_distance)
            return {};
          return std::abs(*r.errors->exact_distance - r.road_distance);
        }},
-      {"error.exact_feasible_energy_norm", "true error of the feasible displacement", "",
+      {"error.exact_feasible_energy_norm", "true error of the admissible displacement v", "",
        Quantity::energy_norm, 0, 3,
        if_resolved(optional_member(&Result::errors, &TrueErrors::admissible_energy_norm))},
-      {"error.effectivity", "bound over the error that the energies give", "", Quantity::number, 0,
-       3, optional_member(&Result::errors, &TrueErrors::effectivity)},
-      {"error.expected_order", "expected order of the energy norm in N^(-1/2)", "",
+      {"error.effectivity", "bound over (2 (J(v) - J(u)))^(1/2), v the admissible displacement", "",
+       Quantity::number, 0, 3, optional_member(&Result::errors, &TrueErrors::effectivity)},
+      {"error.expected_order", "expected order of the energy norm in unknowns^(-1/2)", "",
        Quantity::number, 0, 3, optional_member(&Result::errors, &TrueErrors::expected_order)},
   };
 }
@@ -268,17 +268,25 @@ const ResultQuantity& result_quantity(const std::string& name) {
 void print_quantities(std::ostream& out) {
   Units units; // whose names are the dimensions
   units.material.unit_names = {"length", "time", "force"};
-  out << "| name | meaning | symbol | unit | shown |\n|---|---|---|---|---|\n";
+  out << "Every number is in summary.json and study.csv. The symbol is its heading in tables. "
+         "Shown:\n"
+         "screen (a line under Result; contact ends, bounds, residuals, mesh and seconds are on "
+         "the\n"
+         "screen too), study.txt, the table of orders, or study-curves.svg (curves).\n\n"
+         "| name | meaning | symbol | unit | shown |\n|---|---|---|---|---|\n";
   for (const ResultQuantity& quantity : result_quantities()) {
     out << "| `" << quantity.name << "` | " << quantity.words << " | " << quantity.symbol << " | "
         << units.unit(quantity.quantity).name << " |";
+    const char* separator = " ";
     for (const auto& [flag, place] : {std::pair(Shown::screen, "screen"),
                                       {Shown::table, "study.txt"},
                                       {Shown::varied_table, "study.txt if varied"},
                                       {Shown::orders, "orders"},
                                       {Shown::curve, "curves"}})
-      if (quantity.shown & flag)
-        out << ' ' << place;
+      if (quantity.shown & flag) {
+        out << separator << place;
+        separator = ", ";
+      }
     out << " |\n";
   }
 }

@@ -1,7 +1,6 @@
 #include "rollwave/run/remarks.h"
 
 #include "rollwave/base/text.h"
-#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/mesh/surface_trace.h"
 
 #include <boost/math/tools/minima.hpp>
@@ -24,14 +23,14 @@ double depth_outside(const Scene& scene, const Result& result) {
 
 /// True if u_h is beyond the road anywhere in the zone, between nodes as well.
 bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
-  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
-    const SurfaceFace& face = trace.faces()[i];
-    const double length = face.end - face.begin;
+  for (unsigned int i = 0; i < trace.edges().size(); ++i) {
+    const SurfaceEdge& edge = trace.edges()[i];
+    const double length = edge.end - edge.begin;
     const auto gap = [&](double t) {
-      return scene.phi(face.begin + t * length) - trace.value(i, t);
+      return scene.phi(edge.begin + t * length) - trace.value(i, t);
     };
-    const double begin = std::max(0., (scene.zone_begin - face.begin) / length),
-                 end = std::min(1., (scene.zone_end - face.begin) / length);
+    const double begin = std::max(0., (scene.zone_begin - edge.begin) / length),
+                 end = std::min(1., (scene.zone_end - edge.begin) / length);
     constexpr int bits = 26; // of the place; the least gap has twice as many
     if (begin < end && boost::math::tools::brent_find_minima(gap, begin, end, bits).second < 0)
       return true;
@@ -77,6 +76,17 @@ std::string remark_on_certificate(const RunOptions& options, const Result& resul
                          : "; refine, or set Mesh/Wanted relative error");
 }
 
+/// On a bound that the force expression limits, not the mesh.
+std::string remark_on_force(const Result& result) {
+  if (!result.certified || !std::isfinite(result.certified->energy_norm))
+    return {};
+  const double share = result.certified->force_data / result.certified->energy_norm;
+  if (!(share > 0.5))
+    return {};
+  return "the force expression limits the bound, not the mesh: its share is " +
+         rounded(100 * share, 2) + " %; if it jumps, put the jumps on edges of cells";
+}
+
 /// On contact that the mesh is too coarse for.
 std::string remark_on_resolution(const MeshSolution& solution, const Result& result) {
   const unsigned int n_nodes = result.contact.active_nodes;
@@ -113,8 +123,8 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
   std::vector<std::string> remarks;
   for (const std::string& remark :
        {remark_on_zone_ends(scene, result), remark_on_depth_outside(scene, result),
-        remark_on_certificate(options, result), remark_on_resolution(solution, result),
-        remark_on_displacement(scene, result)})
+        remark_on_certificate(options, result), remark_on_force(result),
+        remark_on_resolution(solution, result), remark_on_displacement(scene, result)})
     if (!remark.empty())
       remarks.push_back(remark);
   return remarks;
@@ -122,12 +132,8 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
 
 std::string missing_error_text(const RunOptions& options, const Result& result,
                                bool is_at_finest_level) {
-  const std::string reached = result.certified
-                                  ? "the certified relative error is " +
-                                        rounded_up(result.certified->relative, 6) + ", wanted " +
-                                        rounded(options.mesh.wanted_relative_error, 6) + "; "
-                                  : "";
-  return reached +
+  return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
+         ", wanted " + rounded(options.mesh.wanted_relative_error, 6) + "; " +
          (is_at_finest_level
               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
                 "Mesh/Angular cells, or Mesh/Wanted relative error"

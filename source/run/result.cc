@@ -1,5 +1,7 @@
 #include "rollwave/run/result.h"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 
 namespace rollwave {
@@ -9,10 +11,7 @@ double Residuals::largest() const {
 }
 
 std::string shortfall_text(const Result& result) {
-  std::string text;
-  for (const std::string& shortfall : result.shortfalls)
-    text += (text.empty() ? "" : "; ") + shortfall;
-  return text;
+  return boost::algorithm::join(result.shortfalls, "; ");
 }
 
 } // namespace rollwave

@@ -42,19 +42,15 @@ std::optional<Certificate> certify_solution(const RunOptions& options, Discretis
   return certificate;
 }
 
-/// eta_K of each active cell: its share of the bound or, without a bound, Kelly's indicator.
+/// eta_K of each active cell by Mesh/Indicator; Kelly's if there is no certificate.
 std::vector<double> cell_indicators(const RunOptions& options, const Discretisation& mesh,
                                     const MeshSolution& solution,
                                     const std::optional<Certificate>& certificate,
                                     RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "indicator");
-  switch (certificate ? options.mesh.indicator : Indicator::kelly) {
-  case Indicator::certificate:
+  if (certificate && options.mesh.indicator == Indicator::certificate)
     return certificate->cell_bounds;
-  case Indicator::kelly:
-    return kelly_indicator(*mesh.space, solution.displacement);
-  }
-  throw ExcInternalError();
+  return kelly_indicator(*mesh.space, solution.displacement);
 }
 
 /// sqrt(sum eta_K^2) over the cells of all processes.
@@ -70,6 +66,8 @@ CycleFigures describe_cycle(const RingSpace& space, const MeshSolution& solution
       static_cast<unsigned int>(space.dof_handler().get_triangulation().n_global_active_cells()),
       space.n_unknowns(),
       static_cast<unsigned int>(solution.contact.history.size()),
+      solution.scene.road.distance,
+      solution.resultants.loads.vertical,
       0,
       {}};
   if (certificate)
@@ -90,7 +88,8 @@ bool is_load_beyond_meshes(const MeshSolution& solution, unsigned int n_meshes) 
          reaches_tangent(solution.problem, solution.contact.active);
 }
 
-/// True if the wanted error is reached, or a further mesh is not asked for or has no room.
+/// True if no further mesh is needed or possible: the wanted error is reached, the cycles or the
+/// room are used up, the certificate has failed, or finer meshes do not resolve the load either.
 bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
@@ -112,11 +111,13 @@ void add_load_bounds(const RunOptions& options, Discretisation& mesh, const Mesh
                              "least energy need not be convex in the distance");
   else if (!load)
     result.load_bounds = bound_load(options, mesh, solution, error, statistics);
-  else if (load->kind == LoadKind::work_conjugate)
+  else if (load->kind == LoadKind::work_conjugate) {
     result.distance_bounds = bound_distance(options, mesh, solution, error, statistics);
-  else
-    result.remarks.push_back("the distance can be enclosed only where Road/Load kind is "
-                             "work-conjugate");
+    if (!result.distance_bounds)
+      result.remarks.push_back("the distance has no bounds: those of the energy are too wide on "
+                               "this mesh; refine it");
+  } else
+    result.remarks.push_back("the distance has bounds only if Road/Load kind is work-conjugate");
 }
 
 /// Adds the targets that were not reached, and the remarks.
@@ -147,7 +148,7 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
   add_shortfalls_and_remarks(options, mesh, last, certificate, result);
   if (options.certificate.load_bounds && certificate && !is_interrupted)
     attempt([&] { add_load_bounds(options, mesh, last, certificate->error, statistics, result); },
-            "the load could not be enclosed",
+            "the bounds of the load or distance could not be computed",
             "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
             result.shortfalls);
   if (!mesh.is_shared)
@@ -174,21 +175,19 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.shortfalls.push_back(interrupted_text(cycles.size()));
-    if (!ends && !is_stopped) {
+    bool goes_on = !ends && !is_stopped;
+    if (goes_on) {
       scene = solution.scene;
       pressure = pressure_profile(solution);
       const auto indicators = cell_indicators(options, mesh, solution, certificate, statistics);
       cycles.back().indicated = l2_norm(indicators, mesh.communicator());
-      if (mesh.refine(indicators, scene, options, statistics)) {
-        if (progress.mesh_solved)
-          progress.mesh_solved(cycles.size(), cycles.back());
-        continue;
-      }
+      goes_on = mesh.refine(indicators, scene, options, statistics);
     }
-    if (progress.mesh_solved && cycles.size() > 1)
+    if (progress.mesh_solved && (goes_on || cycles.size() > 1))
       progress.mesh_solved(cycles.size(), cycles.back());
-    return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
-                  is_stopped, std::move(statistics));
+    if (!goes_on)
+      return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
+                    is_stopped, std::move(statistics));
   }
 }
 

@@ -98,7 +98,7 @@ void solve_contact_on(const RunOptions& options, const PressureProfile& start,
 /// do not resolve them.
 void leave_out_unresolved_loads(MeshSolution& solution) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  solution.resultants.work_conjugate_load = unknown;
+  solution.resultants.loads.work_conjugate = unknown;
   solution.resultants.stiffness = {unknown, unknown, unknown};
   solution.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
                              "work-conjugate load and the stiffness are not resolved: they are "
@@ -162,14 +162,11 @@ MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
   ContactLinearSolver& solver = *cache.stiffness.solver;
   if (!cache.stiffness.remark.empty())
     solution.remarks.push_back(cache.stiffness.remark);
-  {
-    const RunStatistics::Phase phase(statistics, "contact");
-    solve_contact_on(options, start, solver, step_ended, solution);
-  }
-  solution.displacement = solver.displacement_field(solution.contact.state);
   Loads stiffness;
   {
     const RunStatistics::Phase phase(statistics, "contact");
+    solve_contact_on(options, start, solver, step_ended, solution);
+    solution.displacement = solver.displacement_field(solution.contact.state);
     stiffness = contact_stiffness(solver, boundary, solution.scene, solution.problem,
                                   solution.contact, options.contact.most_steps);
   }

@@ -37,11 +37,11 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
     refuse("Outer radius",
            text("it must be greater than the inner radius ", cylinder.inner_radius));
 
-  constexpr double least_ratio = 1e-150; // whose square can be held
+  constexpr double least_ratio = 1e-150; // its square does not underflow
   if (cylinder.inner_radius < least_ratio * cylinder.outer_radius)
     refuse("Inner radius", text("it must be at least ", least_ratio, " of the outer radius"));
 
-  // The user's number has been rounded, at most by the last digits of a decimal number.
+  // The user may have rounded the critical speed in its last decimal digit.
   const double critical = material.wave_speed() / cylinder.outer_radius;
   if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
     refuse("Angular velocity",
@@ -85,7 +85,8 @@ void check_road(const CylinderOptions& cylinder, const RoadOptions& road, double
 /// Half the angle in which the surface can touch the road; pi stands for the whole circle. Contact
 /// pushes inwards, so that u <= u_f, the displacement without contact: where the force is uniform,
 /// contact ends before phi = u_f. Two cells are added, since contact that ends within a cell is
-/// felt next to it. A nonuniform force has phi < b as its limit, and no zone goes beyond that.
+/// felt next to it. For a force expression u_f is not known, and the zone is where phi < b. No zone
+/// is wider than that.
 double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   const double a = scene.inner_radius, b = scene.outer_radius;
   double limit = b, margin = 0; // of phi and of the angle
@@ -154,7 +155,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.least_distance = least_distance / unit;
   if (road.load)
     scene.load = Scene::Load{*road.load / scene.units.of(Quantity::force), road.load_kind};
-  scene = with_distance(std::move(scene), distance / unit);
+  scene.phi = make_obstacle(scene.road);
 
   if (const auto& zone = road.contact_zone) {
     scene.zone_begin = zone->first;

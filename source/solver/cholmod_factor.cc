@@ -8,15 +8,15 @@
 #include <string>
 
 /**
- * CHOLMOD enters a parallel region of OpenMP for each of the small blocks that it adds to another,
- * and libgomp makes a team each time, even of one thread. That is half of a factorisation. As GCC
- * compiles them, these regions call GOMP_parallel (manual of libgomp, "Implementing PARALLEL
- * construct"). This definition stands before that of libgomp and runs the @p region on the calling
- * thread. A CHOLMOD compiled by clang does not call it.
+ * CHOLMOD enters a parallel region of OpenMP for each small block that it adds to another. libgomp
+ * makes a team of threads each time, even of one thread, which takes half of the time of a
+ * factorisation. GCC compiles such a region to a call of GOMP_parallel (manual of libgomp,
+ * "Implementing PARALLEL construct"). The linker finds this definition before that of libgomp, and
+ * it runs the @p region on the calling thread. Clang compiles a region to another call, which stays
+ * as it is.
  *
- * No team of OpenMP may be active around a call. An OpenBLAS with OpenMP, whose threads would wait
- * for each other, asks omp_get_max_threads and enters no region then. Rollwave and its other
- * libraries have no regions.
+ * No team of OpenMP may be active around a call. An OpenBLAS that uses OpenMP asks
+ * omp_get_max_threads, gets 1 and enters no region. Rollwave and its other libraries have none.
  */
 extern "C" {
 __attribute__((visibility("default"))) void GOMP_parallel(void (*region)(void*), void* data,
@@ -75,7 +75,7 @@ struct CholmodFactor::Cholmod {
                       std::to_string(common.status));
   }
 
-  /// With L or its transpose: cholmod_solve() would make two more copies of a large vector.
+  /// Solves with L or L^T in place. cholmod_solve() would make two more copies of a large vector.
   void solve_triangle(decltype(cholmod_super_lsolve)* solve, std::vector<double>& values) {
     std::vector<double> workspace(factor->maxesize);
     cholmod_dense x = view(values), e = view(workspace);

@@ -15,7 +15,7 @@ using namespace dealii;
 
 namespace {
 
-/// @throws NotEnoughMemory, whatever has noticed it
+/// @throws NotEnoughMemory, also in place of std::bad_alloc and deal.II's ExcOutOfMemory
 std::unique_ptr<ContactLinearSolver>
 make_direct(const ContactBoundary& candidates, const Scene& scene, const ContactBoundary& boundary,
             const std::optional<FieldVector>& load, RunStatistics& statistics) {

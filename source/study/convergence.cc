@@ -135,6 +135,7 @@ std::vector<Family> find_families(const Study& study) {
 }
 
 void report_orders(std::ostream& out, const Study& study) {
+  bool has_orders = false;
   for (const Family& family : find_families(study)) {
     const auto meshes = meshes_of(study, family);
     const auto all = errors();
@@ -143,13 +144,22 @@ void report_orders(std::ostream& out, const Study& study) {
     });
     if (meshes.size() < 2 || !has_errors)
       continue;
+    has_orders = true;
     out << "\nOrders in h ~ unknowns^(-1/2)" << (family.name.empty() ? "" : ", ") << family.name
-        << (meshes.size() < family.runs.size() ? ", only meshes at least 1.5 times larger" : "")
+        << (meshes.size() < family.runs.size()
+                ? ", only meshes whose unknowns differ by a factor of 1.5 or more"
+                : "")
         << '\n';
     print_errors(out, study, meshes);
     if (meshes.size() > 2)
       print_fits(out, study, meshes);
   }
+  if (has_orders)
+    out << "certified and error are relative. The other errors are absolute, that of the pressure "
+           "in "
+           "the\ndiscrete L2 norm. Single orders scatter with the position of the ends of contact "
+           "in "
+           "their cells.\n";
 }
 
 } // namespace rollwave

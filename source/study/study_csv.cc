@@ -4,6 +4,9 @@
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,10 +21,7 @@ std::string csv_field(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   if (text.find_first_of(",\"") == std::string::npos)
     return text;
-  std::string quoted;
-  for (const char c : text)
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return '"' + quoted + '"';
+  return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
 }
 
 std::vector<std::string> csv_fields(const std::string& line) {
@@ -83,9 +83,7 @@ std::string csv_header(const Study& study) {
 std::string csv_row(const Study& study, unsigned int number) {
   const RunPlan& plan = study.plans[number];
   const StudyRun& run = *study.runs[number];
-  std::string remarks;
-  for (const std::string& remark : run.remarks)
-    remarks += (remarks.empty() ? "" : " | ") + remark;
+  const std::string remarks = boost::algorithm::join(run.remarks, " | ");
   std::string line = key_fields(plan) + (run.is_solved() ? "1," : "0,") +
                      (plan.published_steps ? std::to_string(*plan.published_steps) : "");
   for (const std::string& text : {run.reference, run.failure, remarks, run.files})

@@ -10,7 +10,6 @@
 #include "rollwave/study/study_table.h"
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +58,7 @@ bool is_of_scene(const Setting& setting) {
 }
 
 /// The values that all runs share: the keys that titles name, and others of the scene that are not
-/// at their defaults. Named scenes share the method only.
+/// at their defaults.
 std::string title_of(const Study& study) {
   const RunPlan& plan = study.plans.front();
   const std::vector<Setting>& settings = plan.parameters.settings;
@@ -67,8 +66,9 @@ std::string title_of(const Study& study) {
   for (const Key& key : all_keys()) {
     const Setting setting{key.section, key.name, value_of(key, settings), ""};
     const bool is_shared =
-        !last_of(plan.varied, key.path()) &&
-        (plan.scene.empty() || !(key.affects & (Affects::scene | Affects::mesh)));
+        std::all_of(study.plans.begin(), study.plans.end(), [&](const RunPlan& other) {
+          return value_of(key, other.parameters.settings) == setting.value;
+        });
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
     if (is_shared && is_named && setting.value != "none")
@@ -87,7 +87,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     const Setting* const last = &fastest_key(study, plan);
     const std::string title =
         label(plan, [last](const Setting& setting) { return &setting < last; });
-    // The keys before them change together with the text.
+    // The runs of one curve follow each other, so that a new title begins a new curve.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
     curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
@@ -130,8 +130,8 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
   return panels;
 }
 
-/// The error over a figure for each family of runs that differ in the fineness of their meshes: the
-/// true one or, if that is not known, its bound.
+/// The error over the quantity @p x for each family of runs that differ in the fineness of their
+/// meshes: the true error or, if that is not known, its bound.
 /// @param order_factor slopes over expected orders; 0 for none
 Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
                          double order_factor) {
@@ -237,12 +237,16 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
   if (has_errors && find_families(study).size() < study.plans.size())
     for (const auto& [name, figure, label, order] :
          {std::tuple("study-h", "mesh.h_max",
-                     "largest diameter of a cell h" + study.units().in_brackets(Quantity::length),
+                     "h, the largest diameter of a cell" +
+                         study.units().in_brackets(Quantity::length),
                      1.),
           {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
       add(name, {errors_of_families(study, figure, label, order)});
-  if (!x.empty() && (is_over_method || study.has("published_steps")) &&
+  const bool is_adaptive = // such runs begin with the contact of the mesh before
+      std::any_of(study.plans.begin(), study.plans.end(),
+                  [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
+  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps")) &&
       study.varies("iterations.contact"))
     add("study", {{x_label_of(study), "contact steps",
                    curves_of(study, x, "iterations.contact", "published_steps"), false, true}});

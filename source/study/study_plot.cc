@@ -62,6 +62,17 @@ std::string style(unsigned int curve, std::size_t n_points) {
          std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
+/// True if all points have whole numbers in x that fit as labels of an axis, such as numbers of
+/// refinements.
+bool has_few_integers(const Panel& panel) {
+  constexpr double most = 12;
+  for (const Curve& curve : panel.curves)
+    for (const auto& [x, y] : curve.points)
+      if (x != std::round(x) || std::abs(x) > most)
+        return false;
+  return true;
+}
+
 /// The command that plots a panel, with its data. @param legend_rows of the legend of all panels; 0
 /// for none
 void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
@@ -75,6 +86,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << (panel.has_log_x ? "\nset logscale x\nset offsets 0, 0, 0, 0\n"
                              : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
                                "set autoscale xfix\n")
+         << (has_few_integers(panel) ? "set xtics 1\n" : "set xtics autofreq\n")
          << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\n";
   if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
     script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";
@@ -95,8 +107,8 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   }
   for (unsigned int i = 0; i < panel.slopes.size(); ++i)
     script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]
-           << ") with lines linecolor rgb '#808080' dashtype " << 3 + i << " title 'slope "
-           << panel.slopes[i] << "'";
+           << ") with lines linewidth 1.5 linecolor rgb '#808080' dashtype " << 3 + i
+           << " title 'expected slope " << panel.slopes[i] << "'";
   script << '\n' << data.str();
 }
 
@@ -130,7 +142,7 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
   }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
   const unsigned int width = is_single ? 760 : 1000;
-  const unsigned int letter = 8, sample = 70; // in the legend
+  const unsigned int letter = 9, sample = 80; // in the legend
   const unsigned int legend_columns = std::clamp(width / (letter * longest + sample), 1u, 4u);
   const unsigned int columns = is_single ? 1 : 2, rows = (panels.size() + columns - 1) / columns,
                      legend_rows =

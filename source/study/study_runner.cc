@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Takes over the runs that an earlier call has solved. Returns their number.
-unsigned int take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
+/// Takes over the runs that an earlier call has solved.
+void take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
   const bool goes_on = process_number(communicator) == 0 && is_of_same_run(parameters);
   const auto read = [&](const char* name) {
     const fs::path file = fs::path(parameters.output.directory) / name;
@@ -30,8 +30,6 @@ unsigned int take_over(Study& study, const Parameters& parameters, MPI_Comm comm
   };
   read_csv(read("study.csv"), study);
   read_profiles(read("study-profiles.csv"), study);
-  return std::count_if(study.runs.begin(), study.runs.end(),
-                       [](const auto& run) { return run.has_value(); });
 }
 
 /// Writes the runs that have ended in their order.
@@ -52,7 +50,6 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
   const bool is_first = process_number(communicator) == 0;
   const dealii::Timer timer;
   unsigned int n_made = 0;
-  auto n_missing = std::count(study.runs.begin(), study.runs.end(), std::nullopt);
   try {
     StudySolver solver(study.plans, parameters, directory, report_long_runs(out), communicator);
     for (unsigned int run = 0; run < study.runs.size(); ++run) {
@@ -65,7 +62,7 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
       }
       out << line_of_run(study, run);
       ++n_made;
-      --n_missing;
+      const auto n_missing = study.runs.size() - study.n_ended();
       constexpr unsigned int enough = 3; // to judge the others by
       if (n_made >= enough && n_missing > 0)
         out << ", about " << rounded(timer.wall_time() / n_made * n_missing, 2) << " s left";
@@ -95,7 +92,8 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
                MPI_Comm communicator) {
   const fs::path directory = parameters.output.directory;
   const bool is_first = process_number(communicator) == 0;
-  const unsigned int n_earlier = take_over(study, parameters, communicator);
+  take_over(study, parameters, communicator);
+  const auto n_earlier = study.n_ended();
   if (n_earlier > 0)
     out << n_earlier << " of " << study.runs.size() << " runs are reused from study.csv\n";
   if (is_first) {
@@ -107,11 +105,9 @@ void run_study(Study& study, const Parameters& parameters, std::ostream& out,
   if (is_first && n_earlier > 0)
     write_tables(study, directory); // in the order of the study
   if (!is_complete) {
-    const auto n_made = std::count_if(study.runs.begin(), study.runs.end(),
-                                      [](const auto& run) { return run.has_value(); });
-    if (n_made == 0)
+    if (study.n_ended() == 0)
       throw Interrupted("interrupted before the first run was made");
-    study.shortfall = "interrupted after " + std::to_string(n_made) + " of " +
+    study.shortfall = "interrupted after " + std::to_string(study.n_ended()) + " of " +
                       std::to_string(study.runs.size()) +
                       " runs; rerun the same command to continue";
   }

@@ -5,6 +5,7 @@
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 
+#include <boost/algorithm/string/join.hpp>
 #include <deal.II/base/table_handler.h>
 
 #include <functional>
@@ -75,9 +76,11 @@ std::string line_of_run(const Study& study, unsigned int run) {
   std::ostringstream line;
   line << run + 1 << " of " << study.plans.size() << "  "
        << label(study.plans[run], [](const Setting&) { return true; }) << ":  ";
-  if (const auto force = study.value(run, "contact.force"))
-    line << "F = " << rounded(*force, 6) << study.units().after(Quantity::force) << ", "
-         << study.value(run, "iterations.contact").value_or(0)
+  const bool has_load = study.plans[run].parameters.road.load.has_value();
+  const ResultQuantity& result = result_quantity(has_load ? "scene.deflection" : "contact.force");
+  if (const auto value = study.value(run, result.name))
+    line << result.symbol << " = " << rounded(*value, 6) << study.units().after(result.quantity)
+         << ", " << study.value(run, "iterations.contact").value_or(0)
          << (study.value(run, "iterations.contact") == 1 ? " step, " : " steps, ")
          << rounded(study.value(run, "seconds.total").value_or(0), 3) << " s, ";
   line << outcome_of(*study.runs[run]);
@@ -100,17 +103,19 @@ void print_study_notes(std::ostream& out, const Study& study) {
     if (const auto& made = study.runs[run]) {
       if (!made->failure.empty())
         (made->is_solved() ? shortfalls : failures)[run] = made->failure;
-      for (const std::string& remark : made->remarks)
-        remarks[run] += (remarks[run].empty() ? "" : "; ") + remark;
+      if (!made->remarks.empty())
+        remarks[run] = boost::algorithm::join(made->remarks, "; ");
     }
-  out << "\nsteps: of the contact iteration on the last mesh. seconds: without start-up, exact\n"
-         "solutions, and work reused from the run before (column shared of study.csv).\n";
+  out << "\nsteps: of the contact iteration on the last mesh, for a given load at its last "
+         "distance.\n"
+         "seconds: without start-up, exact solutions, and work reused from the run before (column\n"
+         "shared of study.csv).\n";
   if (study.has("error.certified_relative"))
     out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))
     out << "error: true relative error in the energy norm, against the semi-analytic solution.\n";
   if (study.has("error.exact_distance"))
-    out << "Errors are taken at the computed distance; error.exact_distance is that of the "
+    out << "error of c: of the distance for the load; the other errors are those at the computed "
            "distance.\n";
   print_first(out, "Not solved", failures, study.runs.size());
   print_first(out, "Target not reached", shortfalls, study.runs.size());

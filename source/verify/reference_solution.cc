@@ -3,15 +3,12 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/contact_problem.h"
 
-#include <deal.II/base/numbers.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace rollwave {
-
-using namespace dealii;
 
 std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string* why_none) {
   const auto give_up = [&](const std::string& why) -> std::optional<ExactSolution> {
@@ -43,8 +40,7 @@ std::optional<double> find_exact_distance(const Scene& scene) {
     const auto exact = find_exact_solution(with_distance(scene, c));
     if (!exact)
       return {};
-    const Loads loads = {exact->force, exact->vertical_load, exact->work_conjugate_load};
-    return loads.of(scene.load->kind) - scene.load->value;
+    return exact->loads.of(scene.load->kind) - scene.load->value;
   };
   // The secant method: that of the mesh is near, and each exact solution takes about a second.
   constexpr double first_step = 1e-6, tolerance = 1e-11;

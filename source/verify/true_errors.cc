@@ -21,7 +21,7 @@ using namespace dealii;
 namespace {
 
 /// A continuous function w on r = b in pieces that are smooth, by increasing angle; the angles are
-/// those of SurfaceFace.
+/// those of SurfaceEdge.
 struct SurfacePiece {
   double begin;
   double end;
@@ -41,8 +41,8 @@ double pressure_times(const SurfacePiece& piece, const GegenbauerPressure& press
   if (!has_end)
     return boost::math::quadrature::gauss<double, 20>::integrate(
         [&](double z) { return pressure(z) * piece.value(z); }, begin, end);
-  // With z = m - w cos(x) the weight sin(x)^(2 nu) is left of (1 - t^2)^(nu - 1/2) dt, which is no
-  // longer singular.
+  // The substitution z = m - w cos(x), t = (z - m)/w, turns (1 - t^2)^(nu - 1/2) dt into
+  // sin(x)^(2 nu) dx, which is not singular.
   const auto angle = [&](double z) {
     return std::acos(std::clamp((pressure.middle() - z) / pressure.half_width(), -1., 1.));
   };
@@ -54,18 +54,6 @@ double pressure_times(const SurfacePiece& piece, const GegenbauerPressure& press
                std::pow(std::sin(x), 2 * pressure.order()) * piece.value(z);
       },
       angle(begin), angle(end), 1e-12);
-}
-
-/// sum_k c_k cos(k x) by Clenshaw's recurrence.
-double cosine_sum(const std::vector<double>& coefficients, double x) {
-  const double factor = 2 * std::cos(x);
-  double first = 0, second = 0;
-  for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
-    const double next = coefficients[k] + factor * first - second;
-    second = first;
-    first = next;
-  }
-  return coefficients[0] + factor / 2 * first - second;
 }
 
 /// The L2 norm of u - u_h. Points of a mesh share few radii, for each of which u is a series over
@@ -92,7 +80,7 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
     list.push_back(r);
   // Modes that the mesh cannot resolve by far are no part of its error.
   const unsigned int n_modes = 2 * space.surface_nodes().size() + 50;
-  const auto coefficients = ExactField(exact.scene, exact, n_modes).cosine_coefficients(list);
+  const auto coefficients = cosine_coefficients(exact, n_modes, list);
   std::map<long long, const std::vector<double>*> series;
   for (const auto& [rounded, r] : radii)
     series[rounded] = &coefficients[series.size()];
@@ -106,7 +94,7 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
     values.get_function_values(field, displacement);
     for (const unsigned int q : values.quadrature_point_indices()) {
       const Point<2> point = values.quadrature_point(q);
-      const double u = cosine_sum(*series.at(key(point[0])), point[1] - exact.pressure.middle());
+      const double u = cosine_sum(*series.at(key(point[0])), point[1]);
       squared += point[0] * (u - displacement[q]) * (u - displacement[q]) * values.JxW(q);
     }
   }
@@ -116,25 +104,25 @@ double l2_error(const RingSpace& space, const FieldVector& field, const ExactSol
 /// u_h on r = b, one piece for each edge.
 SurfaceFunction pieces_of(const SurfaceTrace& trace) {
   SurfaceFunction pieces;
-  for (unsigned int i = 0; i < trace.faces().size(); ++i) {
-    const SurfaceFace& face = trace.faces()[i];
-    pieces.push_back({face.begin, face.end, [&trace, &face, i](double z) {
-                        return trace.value(i, (z - face.begin) / (face.end - face.begin));
+  for (unsigned int i = 0; i < trace.edges().size(); ++i) {
+    const SurfaceEdge& edge = trace.edges()[i];
+    pieces.push_back({edge.begin, edge.end, [&trace, &edge, i](double z) {
+                        return trace.value(i, (z - edge.begin) / (edge.end - edge.begin));
                       }});
   }
   return pieces;
 }
 
-/// The feasible displacement v on r = b.
-SurfaceFunction pieces_of(const RingSpace& space, const AdmissibleTrace& feasible) {
+/// The admissible displacement v on r = b.
+SurfaceFunction pieces_of(const RingSpace& space, const AdmissibleTrace& trace) {
   SurfaceFunction pieces;
-  for (unsigned int i = 0; i < space.surface_faces().size(); ++i) {
-    const SurfaceFace& face = space.surface_faces()[i];
-    const double length = face.end - face.begin;
-    for (const auto& piece : feasible.pieces(i))
-      pieces.push_back({face.begin + piece.t_begin * length, face.begin + piece.t_end * length,
-                        [&feasible, &piece, i, length, begin = face.begin](double z) {
-                          return feasible.displacement(i, piece, (z - begin) / length);
+  for (unsigned int i = 0; i < space.surface_edges().size(); ++i) {
+    const SurfaceEdge& edge = space.surface_edges()[i];
+    const double length = edge.end - edge.begin;
+    for (const auto& piece : trace.pieces(i))
+      pieces.push_back({edge.begin + piece.t_begin * length, edge.begin + piece.t_end * length,
+                        [&trace, &piece, i, length, begin = edge.begin](double z) {
+                          return trace.displacement(i, piece, (z - begin) / length);
                         }});
   }
   return pieces;
@@ -186,7 +174,7 @@ TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& ex
       exact.norm_squared > 0 ? errors.energy_norm / std::sqrt(exact.norm_squared) : 0;
   errors.l2_norm = l2_error(space, field, exact);
   errors.pressure = std::sqrt(pressure_distance_squared(exact, result));
-  errors.force = std::abs(result.contact.force - exact.force);
+  errors.force = std::abs(result.contact.loads.total - exact.loads.total);
   errors.energy = std::abs(result.energy.value - exact.energy);
   errors.half_width = std::abs(result.contact.half_width() - exact.half_width);
   // Free ends allow 3/2 at most on uniform meshes, ends cut short by the zone 1/2.
@@ -196,10 +184,10 @@ TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& ex
   errors.is_resolved = errors.energy_norm >= floor;
   if (const auto& certificate = solution.certificate) {
     const CertifiedError& certified = certificate->error;
-    const double work_of_feasible = certificate->work_of_force;
-    const double energy = certified.norm_squared / 2 - work_of_feasible;
+    const double work_on_v = certificate->work_of_force; // (f, v)
+    const double energy = certified.norm_squared / 2 - work_on_v;
     errors.admissible_energy_norm = energy_distance(exact, pieces_of(space, certificate->trace),
-                                                    certified.norm_squared, work_of_feasible);
+                                                    certified.norm_squared, work_on_v);
     // a(v - u, v - u) <= 2 (J(v) - J(u)) for every v in K: what is clearly more is the exact
     // answer's own error.
     const double most = std::sqrt(2 * std::max(energy - exact.energy, 0.));

@@ -21,7 +21,7 @@ public:
 
   std::ostream& stream() { return out; }
 
-  /// The name under which it is written, for programs that write it themselves.
+  /// The temporary path, for another program that writes the file.
   const std::filesystem::path& part() const { return temporary; }
 
   /// Moves the file to its place and returns its size in bytes.

@@ -5,8 +5,8 @@
 namespace rollwave {
 
 /// From here on the first SIGINT (Ctrl-C), SIGTERM, SIGUSR1 or SIGUSR2 sets a flag; the same signal
-/// once more ends the program at once. Writing to a full disk or a closed pipe is an error of the
-/// stream, not a signal.
+/// once more ends the program at once. A write to a closed pipe, or beyond the limit of file sizes
+/// (ulimit -f), then fails as an error of the stream instead of ending the program.
 /// @param reports true to print a message on the standard error when the flag is set
 void install_signal_handlers(bool reports = true);
 

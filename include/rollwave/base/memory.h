@@ -13,10 +13,10 @@ namespace rollwave {
 void require_memory(double bytes, const std::string& purpose,
                     MPI_Comm communicator = MPI_COMM_SELF);
 
-/// Makes OpenBLAS fit a limited address space (ulimit -v), of which its buffer takes 128 MiB for
-/// each thread as soon as the program is loaded; without room it would wait for ever. There the
-/// program starts itself again with one thread, unless OPENBLAS_NUM_THREADS or OMP_NUM_THREADS is
-/// set, and takes the buffer before anything else.
+/// OpenBLAS reserves 128 MiB of address space for each thread when the program is loaded, and waits
+/// for ever if there is no room. If the address space is limited (ulimit -v), this function starts
+/// the program again with one thread, unless OPENBLAS_NUM_THREADS or OMP_NUM_THREADS is set. It
+/// then makes OpenBLAS take its buffer before other memory is used.
 /// @param argv of main()
 /// @return false if the buffer does not fit
 bool fit_blas_into_address_space(char** argv);

@@ -14,7 +14,7 @@ namespace rollwave {
 /// Counts of the work of a run and the seconds of its phases.
 class RunStatistics {
 public:
-  /// Called when a phase has ended, with the seconds of this once.
+  /// Called at the end of each phase with the seconds since it was entered, without inner phases.
   using Observer = std::function<void(const std::string& phase, double seconds)>;
 
   RunStatistics(Observer observer = {}) : observer(std::move(observer)) {}
@@ -23,7 +23,7 @@ public:
   unsigned int stiffness_assemblies = 0;
   unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
   unsigned int factorisations = 0;       ///< of sparse matrices
-  unsigned int dense_factorisations = 0; ///< of its Schur complement on contact nodes
+  unsigned int dense_factorisations = 0; ///< of the Schur complement on the contact nodes
   unsigned int forward_substitutions = 0;
   unsigned int back_substitutions = 0;
   unsigned int preconditioners = 0;   ///< set up for an iterative solver of linear systems

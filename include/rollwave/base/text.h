@@ -36,7 +36,8 @@ std::string rounded_down(double number, int digits);
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
 
-/// A table with its heads. deal.II would throw on a stream that has failed; a text can be printed.
+/// The table as text with column heads. TableHandler::write_text() throws if its stream has failed;
+/// printing this text does not.
 std::string table_text(const dealii::TableHandler& table);
 
 } // namespace rollwave

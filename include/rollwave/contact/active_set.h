@@ -9,15 +9,15 @@ namespace rollwave {
  * K. Kunisch, SIAM J. Optim. 13 (2002) 865-888). It starts from the contact-free solution or from a
  * set given; a step pins the active nodes to the road and solves, then drops the active nodes that
  * are pulled (N_i < 0) and adds the others that penetrate (u_i > phi_i), until nothing changes.
- * With exact solves N_i + kappa (u_i - phi_i) > 0 says just that for every kappa > 0, so none is
- * chosen.
+ * The usual criterion N_i + kappa (u_i - phi_i) > 0 gives the same set for every kappa > 0 if the
+ * solves are exact. The method therefore has no kappa.
  *
  * A set seen before would begin a cycle. From then on only the first node of the wrong sign changes
  * in each step, the least-index rule, which ends for every symmetric positive definite matrix (K.
  * G. Murty, Opsearch 11 (1974); J. J. Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
  *
- * @param start pressures whose positive entries are the active nodes to begin with; without entries
- *        none is
+ * @param start nodal pressures: nodes with a positive one are active at first. If it is empty, no
+ *        node is.
  * @throws NotSolved after @p most_steps steps.
  */
 ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,

@@ -25,12 +25,10 @@ struct ContactResultants {
 
   /// Where the first patch begins and the last one ends; nullopt without contact.
   std::optional<std::pair<double, double>> ends;
-  double force;               ///< F = b int lambda dz
-  double vertical_load;       ///< b int lambda cos(z - 3 pi/2) dz
-  double work_conjugate_load; ///< G = b int lambda dphi/dc dz, that is -dJ/dc
-  double peak_pressure;       ///< max lambda_i
+  Loads loads;
+  Loads stiffness;      ///< -d/dc of the three, see contact_stiffness()
+  double peak_pressure; ///< max lambda_i
   unsigned int active_nodes;
-  Loads stiffness; ///< of the three loads, see contact_stiffness()
 
   /// Half of the length in contact, an angle.
   double half_width() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rollwave/scene/loads.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/solver/contact_linear_solver.h"
@@ -44,7 +45,7 @@ struct ContactProblem {
   dealii::Vector<double> weight; ///< the nodes' areas, see SurfaceNode
   std::vector<double> x;         ///< the nodes' angles from the lowest point
   Road road;
-  double unit = 1; ///< of displacement over pressure, in the user's
+  double unit = 1; ///< the scene's unit of displacement over pressure, in the user's units
 
   unsigned int size() const { return phi.size(); }
 
@@ -54,17 +55,6 @@ struct ContactProblem {
   /// lambda_i = N_i / weight_i, and N_i = weight_i lambda_i.
   dealii::Vector<double> pressures(const dealii::Vector<double>& force) const;
   dealii::Vector<double> forces(const dealii::Vector<double>& pressure) const;
-};
-
-/// The three loads that are in use, b int lambda q dz: q = 1, q = cos x, and q = dphi/dc.
-struct Loads {
-  double total;
-  double vertical;
-  double work_conjugate;
-
-  double of(LoadKind kind) const {
-    return kind == LoadKind::total ? total : kind == LoadKind::vertical ? vertical : work_conjugate;
-  }
 };
 
 /// The loads of nodal forces by the rule [.,.]_h.
@@ -82,10 +72,7 @@ struct ContactStep {
   unsigned int changed;   ///< nodes that entered or left contact after this step
   double penetration;     ///< max (u_i - phi_i, 0), a length
   double lowest_pressure; ///< min (lambda_i, 0)
-
-  /// Active set: the number of changed nodes over that of all. Uzawa: what its stopping rule
-  /// measures, relative to u.
-  double residual;
+  double residual;        ///< of Uzawa's method: what its stopping rule measures, relative to u
 };
 
 /// Called after each step of a contact iteration with all steps so far.

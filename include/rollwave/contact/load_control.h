@@ -47,9 +47,10 @@ struct RoadPosition {
  * The road's distance at which the load is that of Scene::load, by Newton's method within a
  * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow, see
  * missing_load_text(). The active set method finds the contact for each distance, beginning with
- * that of the distance before. The first is that of @p scene, with the pressures @p start. For a
- * work-conjugate load the search ends within a hundredth where contact reaches_tangent() and the
- * load is too small: the mesh resolves it at no nearer distance.
+ * that of the distance before. The first is that of @p scene, with the pressures @p start. Where
+ * contact reaches_tangent(), the mesh does not resolve a work-conjugate load. If the load is too
+ * small there, the search ends when the load or the bracket of distances is accurate to 1 %, or at
+ * Scene::least_distance.
  *
  * @throws BadValue where a road at Scene::least_distance carries less, or a drum around the
  *         cylinder carries more at every distance; NotSolved as active_set(), or after 100 trials.

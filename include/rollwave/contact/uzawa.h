@@ -13,10 +13,10 @@ namespace rollwave {
  *     p <- min(0, p - rho (u_h(p) - phi))   on the contact nodes,
  *     u_h(p):  a(u_h, v) = (f, v) + [p, v]_h  for all v.
  *
- * With theta the largest eigenvalue of the compliance, which maps -p to -u, on a set of nodes, it
- * converges from any start for 0 < rho < 2 / theta of all contact nodes, and only below 2 / theta
- * of those that end up in contact. A step length that is too large shows in a residual that stops
- * falling.
+ * Let theta be the largest eigenvalue of the compliance on a set of nodes, see
+ * largest_compliance(). The method converges from any start if 0 < rho < 2 / theta for the set of
+ * all contact nodes. It diverges if rho > 2 / theta for the nodes that are in contact at the
+ * solution. The residual of a step length that is too large stops falling.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.

@@ -39,24 +39,24 @@ public:
   AdmissibleTrace(const ContactBoundary& boundary, const Scene& scene, const FieldVector& field,
                   const std::vector<bool>& active);
 
-  /// The pieces of an edge, numbered as RingSpace::surface_faces(), in the order of t.
-  const std::vector<Piece>& pieces(unsigned int face) const { return edges[face]; }
+  /// The pieces of an edge, numbered as RingSpace::surface_edges(), in the order of t.
+  const std::vector<Piece>& pieces(unsigned int edge) const { return edges[edge]; }
 
   struct Correction {
     double value; ///< c, a length
     double slope; ///< dc/dz
     double gap;   ///< phi - v inside of the zone, zero outside
   };
-  Correction correction(unsigned int face, const Piece& piece, double t) const;
+  Correction correction(unsigned int edge, const Piece& piece, double t) const;
 
   /// v(b, z)
-  double displacement(unsigned int face, const Piece& piece, double t) const;
+  double displacement(unsigned int edge, const Piece& piece, double t) const;
 
 private:
-  std::vector<Piece> pieces_of(unsigned int face, const std::pair<double, double>& zone,
+  std::vector<Piece> pieces_of(unsigned int edge, const std::pair<double, double>& zone,
                                bool touches) const;
-  std::vector<Piece> limited_pieces(unsigned int face, double zone_begin, double zone_end) const;
-  SurfaceTrace::ValueAndSlope excess(unsigned int face, double t) const; ///< u_h - phi
+  std::vector<Piece> limited_pieces(unsigned int edge, double zone_begin, double zone_end) const;
+  SurfaceTrace::ValueAndSlope excess(unsigned int edge, double t) const; ///< u_h - phi
 
   Obstacle phi;
   SurfaceTrace discrete; ///< u_h

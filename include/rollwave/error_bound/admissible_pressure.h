@@ -18,7 +18,7 @@ struct EdgePressure {
 };
 
 /**
- * The pressures lambda >= 0 of the certificate, one for each of RingSpace::surface_faces(): zero on
+ * The pressures lambda >= 0 of the certificate, one for each of RingSpace::surface_edges(): zero on
  * edges that lie not wholly in the zone; on the others their sum is the discrete contact force.
  *
  * Each has the mean of the discrete pressure and the difference of its values at the vertices, at

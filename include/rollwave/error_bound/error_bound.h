@@ -19,8 +19,8 @@ struct CertificateOptions {
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
 struct CertifiedError {
-  double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the feasible displacement
-  double force_data;   ///< its share delta for what Q_h misses of the force, see ForceIntegral
+  double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the admissible displacement
+  double force_data;   ///< delta, the part of energy_norm for the difference of Q and Q_h
   double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
   double lower_bound;  ///< of J(u)
   double upper_bound;  ///< of J(u), the energy J(v)

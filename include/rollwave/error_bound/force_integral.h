@@ -13,14 +13,15 @@ namespace rollwave {
 struct Scene;
 
 /**
- * The integral of a force f from the surface inwards, from which load and error bound are made,
+ * An approximation Q_h of the integral Q of a force f from the surface inwards. The load and the
+ * error bound are computed from it:
  *
  *     Q(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int Q w_r dr dz   for w = 0 on r = a,
  *
- * in the form of a Q_h. For a force that is a number, Q_h = Q = f (b^2 - r^2)/2. For an expression
- * Q_h is, on each cell, the polynomial that equals Q at the points of rule() along z and of
- * RadialShapes along r; Q there is a sum of Gauss' rules between the radii from the surface
- * inwards, with degree + 1 points each: fewer would let the energy err by more than the mesh does.
+ * For a force that is a number, Q_h = Q = f (b^2 - r^2)/2. For an expression Q_h is, on each cell,
+ * the polynomial that equals Q at the points of rule() along z and of RadialShapes along r; Q there
+ * is a sum of Gauss' rules between the radii from the surface inwards, with degree + 1 points each:
+ * fewer would let the energy err by more than the mesh does.
  *
  * Q_h changes the work of the force on w by int (Q - Q_h) w_r dr dz, and that is at most delta |w|,
  *
@@ -43,7 +44,7 @@ public:
   /// degree + 1 points or, for an expression, two more, Q_h being of a higher degree.
   const dealii::QGauss<1>& rule() const { return angular; }
 
-  /// True if Q is a function of r alone, which does no work on periodic potentials.
+  /// True if Q is a function of r alone.
   bool is_uniform() const { return uniform; }
 
   /// Q_h of an own cell on the line number @p p of rule(), at the radii of its RadialShapes.

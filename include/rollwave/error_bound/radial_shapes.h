@@ -67,9 +67,9 @@ struct RadialShapes {
   std::vector<double> alpha;
   std::vector<RadialShape> shapes; ///< all numbers at the first point, then at the next
 
-  /// The rule on each of the pieces that the interval is cut into, by which the values of a
-  /// function at the points of a piece give the coefficient of the highest Legendre polynomial,
-  /// orthonormal on [0, 1], that they determine.
+  /// Weights for the n points of one piece of the interval. The weighted sum of the values of a
+  /// function at them is its coefficient of the Legendre polynomial of degree n - 1, orthonormal on
+  /// [0, 1].
   std::vector<double> highest_mode;
 
   /// Matrices of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds

@@ -39,9 +39,8 @@ public:
                  RunStatistics& statistics);
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
-  /// @param pressures one for each of RingSpace::surface_faces()
-  /// @param force nullptr when Q is a function of r, which does no work: int psi_z dz = 0 for every
-  /// periodic psi
+  /// @param pressures one for each of RingSpace::surface_edges()
+  /// @param force that of the scene, nullptr without
   /// @throws NotSolved when memory is short or an iteration fails
   FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
                     const ForceIntegral* force, RunStatistics& statistics);

@@ -35,12 +35,8 @@ public:
   /// From this k on both agree to round-off.
   double hub_free_mode() const { return hub_fades_at; }
 
-  /// R_k(r)/R_k(b) and its derivative by r, for every radius.
-  struct Profile {
-    std::vector<double> value;
-    std::vector<double> derivative;
-  };
-  Profile profile(double k, const std::vector<double>& radii) const;
+  /// R_k(r)/R_k(b) for every radius.
+  std::vector<double> profile(double k, const std::vector<double>& radii) const;
 
 private:
   struct Samples;

@@ -3,6 +3,8 @@
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/uniform_force.h"
 
+#include <deal.II/base/numbers.h>
+
 namespace rollwave {
 
 /// The scenes that have a semi-analytic answer: a road of constant curvature, a constant force
@@ -14,7 +16,7 @@ struct ExactScene {
   double angular_velocity;
   double road_distance;
   double force_density;
-  double zone_half_width = 1.5707963267948966;
+  double zone_half_width = dealii::numbers::PI_2;
   double road_curvature = 0;
 
   Road road() const { return {outer_radius, road_distance, road_curvature}; }

@@ -2,6 +2,7 @@
 
 #include "rollwave/exact/exact_scene.h"
 #include "rollwave/exact/gegenbauer_pressure.h"
+#include "rollwave/scene/loads.h"
 
 namespace rollwave {
 
@@ -21,12 +22,10 @@ namespace rollwave {
  */
 struct ExactSolution {
   ExactScene scene;
-  double half_width;          ///< w; 0 without contact
-  double force;               ///< F = b int lambda dz
-  double vertical_load;       ///< b int lambda cos x dz
-  double work_conjugate_load; ///< G = b int lambda dphi/dc dz, that is -dJ/dc
-  double energy;              ///< J(u)
-  double norm_squared;        ///< a(u, u)
+  double half_width; ///< w; 0 without contact
+  Loads loads;
+  double energy;       ///< J(u)
+  double norm_squared; ///< a(u, u)
   double peak_pressure;
 
   /// Estimated relative errors: the numbers are limits of the growing series.

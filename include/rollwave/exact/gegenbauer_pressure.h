@@ -20,8 +20,6 @@ namespace rollwave {
  */
 class GegenbauerPressure {
 public:
-  GegenbauerPressure() = default; ///< none
-
   GegenbauerPressure(double middle, double half_width, double nu,
                      const std::vector<double>& coefficients);
 
@@ -38,7 +36,7 @@ public:
   double order() const { return nu; }
 
 private:
-  double m = 0, w = 1, nu = 1;
+  double m, w, nu;
   std::vector<double> a;
 };
 

@@ -28,7 +28,7 @@ struct MeshOptions {
   unsigned int most_unknowns = 5000000;
 };
 
-/// The unknowns of the first mesh, including the few on the hub.
+/// The number of unknowns of the first mesh; nodes on the hub are not unknowns.
 double count_unknowns(const MeshOptions& mesh);
 
 /// @throws BadValue when the first mesh would have more than `Mesh/Most unknowns` unknowns.

@@ -31,7 +31,7 @@ struct SurfaceNode {
 };
 
 /// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.
-struct SurfaceFace {
+struct SurfaceEdge {
   double begin; ///< angle, in the range of SurfaceNode::angle
   double end;
   std::vector<unsigned int> nodes; ///< numbers among RingSpace::surface_nodes()
@@ -69,11 +69,11 @@ public:
   const std::vector<SurfaceNode>& surface_nodes() const { return surface; }
 
   /// All edges on r = b by increasing angle of the mesh, beginning at the seam.
-  const std::vector<SurfaceFace>& surface_faces() const { return faces; }
+  const std::vector<SurfaceEdge>& surface_edges() const { return edges_of_surface; }
 
-  /// The number among surface_faces() of the edge of a cell on r = b, if it has one.
+  /// The number among surface_edges() of the edge of a cell on r = b, if it has one.
   std::optional<unsigned int>
-  surface_face(const dealii::Triangulation<2>::active_cell_iterator& cell) const;
+  surface_edge(const dealii::Triangulation<2>::active_cell_iterator& cell) const;
 
   /// The values of a field at the surface nodes, on every process.
   std::vector<double> surface_values(const FieldVector& field) const;
@@ -100,8 +100,8 @@ private:
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner; ///< of fields
   unsigned int unknowns;
   std::vector<SurfaceNode> surface;
-  std::vector<SurfaceFace> faces;
-  std::map<double, unsigned int> face_from; ///< by the angle on the mesh where it begins
+  std::vector<SurfaceEdge> edges_of_surface;
+  std::map<double, unsigned int> edge_from; ///< by the angle on the mesh where it begins
   mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
 };
 

@@ -21,8 +21,8 @@ struct WrittenFiles {
 };
 
 /// Writes parameters.prm, the complete parameter file of a run with the version of the program in
-/// its first line. The file that was read, by whatever name, is never written over: then there is a
-/// remark. @throws NotWritten.
+/// its first line. If parameters.prm is the file that was read, even through a link, it is left as
+/// it is, and a remark is added. @throws NotWritten.
 void write_parameters(const std::filesystem::path& directory, const Parameters& parameters,
                       WrittenFiles& written);
 
@@ -31,9 +31,9 @@ void write_parameters(const std::filesystem::path& directory, const Parameters& 
 bool is_of_same_run(const Parameters& parameters);
 
 /**
- * Makes the directory of a run, on rank 0 for all. Where an earlier run has left its parameters.prm
- * it removes the files of that run that this one will not write, by the fixed names of this
- * program.
+ * Makes the directory of a run, on rank 0 for all. If it has the parameters.prm of an earlier run,
+ * files with the fixed names of this program are removed from it and from its run-NNN directories.
+ * A single scene keeps the files that it will write, and a study that continues keeps all.
  *
  * @return the names of the removed files
  * @throws BadValue when the directory cannot be made or written into, NotWritten when there is no

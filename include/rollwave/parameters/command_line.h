@@ -22,7 +22,8 @@ struct CommandLine {
 /// @throws BadInput for arguments that are not understood.
 CommandLine read_command_line(const std::vector<std::string>& arguments);
 
-/// The settings of the file, if there is one, and those of the command line after them.
+/// The settings of the file, if there is one; then output/NAME as Output/Directory if the file
+/// NAME.prm sets none; then those of the command line.
 /// @throws BadInput as read_settings() does.
 std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator);
 

@@ -19,10 +19,10 @@ namespace rollwave {
 /// The data that scenes on one mesh share. Each part is made when it is first needed, and updated
 /// for another scene at the cost of what differs.
 struct MeshCache {
-  SolverChoice stiffness; ///< its kind outlives the solver
+  SolverChoice stiffness; ///< its kind stays set when the solver is freed
   std::unique_ptr<StressFunction> stress_function;
   std::unique_ptr<ForceIntegral> force; ///< nullptr without force
-  std::optional<FieldVector> load;      ///< of the same
+  std::optional<FieldVector> load;      ///< the vector of (f, v); nullopt without force
   std::string force_text;               ///< of the scene that force and load belong to
 
   /// The stress function for the speed of a scene. @throws as StressFunction

@@ -11,9 +11,9 @@ namespace rollwave {
  *
  *     (E(c) - E(c + d))/d <= G <= (E(c - d) - E(c))/d   for every d > 0,
  *
- * and certified bounds of the three energies, on the same mesh, give bounds of G. The curvature of
- * E opens them by |G'| d/2, the width w of the energy bounds by w/d: d is the square root of 2 w /
- * |G'|.
+ * and certified bounds of the three energies, on the same mesh, give bounds of G. Each bound is off
+ * by about |G'| d/2 because E is curved, and by w/d because the bounds of the energy have the width
+ * w. d = (2 w / |G'|)^(1/2) makes both equal.
  *
  * @p solution is that of its scene on the @p mesh, with the certified @p error.
  * @throws NotSolved when a solver fails.
@@ -21,9 +21,10 @@ namespace rollwave {
 Bounds bound_load(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
                   const CertifiedError& error, RunStatistics& statistics);
 
-/// Guaranteed bounds of the distance c at which the work-conjugate load is G, by the same energies:
-/// the road is nearer than c + d where (E(c) - E(c + d))/d <= G is certified, and farther than c -
-/// d where G <= (E(c - d) - E(c))/d is. nullopt where no d up to a hundredth of c is large enough.
+/// Guaranteed bounds of the distance at which the work-conjugate load is G, by the same energies.
+/// If (E(c) - E(c + d))/d <= G is certified, this distance is at most c + d. If
+/// G <= (E(c - d) - E(c))/d is certified, it is at least c - d. nullopt if no d up to a hundredth
+/// of c is large enough.
 std::optional<Bounds> bound_distance(const RunOptions& options, Discretisation& mesh,
                                      const MeshSolution& solution, const CertifiedError& error,
                                      RunStatistics& statistics);

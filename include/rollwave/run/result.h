@@ -36,7 +36,9 @@ struct CycleFigures {
   unsigned int n_cells;
   unsigned int n_unknowns;
   unsigned int contact_steps;
-  double indicated;                ///< sqrt(sum eta_K^2); 0 on the last mesh
+  double road_distance; ///< c, a length
+  double vertical_load; ///< see Loads
+  double indicated;     ///< sqrt(sum eta_K^2); 0 where it was not computed, as on the last mesh
   std::optional<double> certified; ///< CertifiedError::relative where it was computed
 };
 
@@ -63,9 +65,9 @@ struct TrueErrors {
   double half_width;                    ///< |w - w_h|
   std::optional<double> exact_distance; ///< where a load is given
 
-  /// sqrt(a(u - v, u - v)) of the feasible displacement v of the certificate, and the
-  /// effectivity of its bound eta, eta / sqrt(2 (J(v) - J(u))); where there is a certificate, and
-  /// J(v) - J(u) is not lost in the accuracy of J(u).
+  /// Both need a certificate: sqrt(a(u - v, u - v)) of its admissible displacement v; and the
+  /// effectivity (eta + delta) / sqrt(2 (J(v) - J(u))) of its bound, where the computed J(v) is
+  /// greater than the exact J(u).
   std::optional<double> admissible_energy_norm;
   std::optional<double> effectivity;
 
@@ -95,8 +97,8 @@ struct SurfacePoint {
 /// All results of one solved scene, in its units; result_quantities() lists the numbers.
 struct Result {
   MeshFigures mesh;
-  double road_distance;       ///< c, a length
-  double deflection;          ///< b - c, a length: how far the axle sinks after the first touch
+  double road_distance; ///< c, a length
+  double deflection;    ///< b - c, a length: how deep the undeformed ring would lie in the road
   double relative_deflection; ///< over the thickness b - a
   ContactResultants contact;
   Energy energy;

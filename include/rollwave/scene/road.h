@@ -21,8 +21,8 @@ double from_lowest_point(double z);
  *
  *     rho(x) = (2 c + kappa c^2) / (m cos x + R),   m = 1 + kappa c,   R = (1 - m^2 sin^2 x)^(1/2),
  *
- * which is c / cos x for kappa = 0. Derivatives follow from the circle that (x, rho) lies on. A
- * drum ends at its tangent from the axle, m sin x = 1; beyond, phi is b or more.
+ * which is c / cos x for kappa = 0. A drum ends at its tangent from the axle, m sin x = 1; beyond,
+ * phi is b or more.
  */
 struct Road {
   double outer_radius;  ///< b, a length
@@ -38,8 +38,8 @@ struct Road {
   /// dphi/dc = cos x + m sin^2 x / R, which is 1 / cos x on a flat road
   double distance_derivative(double x) const;
 
-  /// The angle at which the road meets a surface of the radius b + @p free, or the tangent where it
-  /// does not reach so far; 0 where the surface is above the road.
+  /// The angle at which the road meets a surface of the radius b + @p free: the angle of the
+  /// tangent if the road does not reach that radius, 0 if the surface lies above the road.
   double crossing_angle(double free) const;
 
   /// The angle of the tangent of a drum, asin(1 / m); pi for roads without a tangent.

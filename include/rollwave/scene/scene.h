@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rollwave/scene/body_force.h"
+#include "rollwave/scene/loads.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 
@@ -18,12 +19,6 @@ struct CylinderOptions {
   double outer_radius = 1;
   double angular_velocity = 0.5;
   std::string radial_force = "0";
-};
-
-enum class LoadKind {
-  vertical,      ///< "vertical": what the axle carries
-  total,         ///< "total": the integral of the pressure
-  work_conjugate ///< "work-conjugate": what does work when the distance changes
 };
 
 /// Section `Road`.
@@ -111,9 +106,9 @@ Scene with_distance(Scene scene, double c);
  * The scene that options describe.
  *
  * @param angular_cells of the first mesh, for the margin of an automatic zone
- * @throws BadValue unless 0 < a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an automatic
- * zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the force can be
- * parsed and is finite.
+ * @throws BadValue unless 1e-150 b <= a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an
+ * automatic zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the
+ * force can be parsed and is finite.
  */
 Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                  const MaterialOptions& material, unsigned int angular_cells);

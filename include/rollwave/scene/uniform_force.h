@@ -2,9 +2,7 @@
 
 namespace rollwave {
 
-/**
- * ln(b/a), accurate in thin rings as well.
- */
+/// ln(b/a), accurate in thin rings as well.
 double log_of_ratio(double outer_radius, double inner_radius);
 
 /**

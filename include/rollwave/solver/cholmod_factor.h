@@ -30,8 +30,8 @@ struct LowerTriplets {
 /**
  * The factorisation K = L L^T of a sparse symmetric positive definite matrix K of n rows by
  * CHOLMOD's supernodal method (Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, ACM Trans.
- * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. Of the last m
- * unknowns it gives the Schur complement S too:
+ * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. trailing_factor()
+ * gives the factor L_cc of the Schur complement S of the last m unknowns:
  *
  *         ( L_ii       )
  *     L = (            ),     S = L_cc L_cc^T = K_cc - K_ci K_ii^-1 K_ic.

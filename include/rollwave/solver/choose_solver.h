@@ -25,17 +25,18 @@ struct SolverOptions {
   SolverKind kind = SolverKind::automatic;
 };
 
-/// A solver and, where its kind is not the one that the user may expect, the reason.
+/// A solver, its kind, and the reason if "auto" chose the iterative kind on one process; otherwise
+/// the remark is empty.
 struct SolverChoice {
   std::unique_ptr<ContactLinearSolver> solver;
   std::string remark;
   SolverKind kind = SolverKind::direct; ///< never automatic
 };
 
-/// The kind of solver that @p kind asks for, set up for @p scene. "auto" is the direct kind or, on
-/// several processes and where its dense matrices of the contact nodes take too long or its factor
-/// too much memory, the iterative one. @p boundary, @p load and @p statistics are as for
-/// ContactLinearSolver::set_problem().
+/// The kind of solver that @p kind asks for, set up for @p scene. "auto" chooses the iterative kind
+/// on several processes, if the dense matrices of the contact nodes would take too long, or if the
+/// factor would need too much memory. Otherwise it chooses the direct kind. @p boundary, @p load
+/// and @p statistics are as for ContactLinearSolver::set_problem().
 /// @param candidates the nodes of the zones of all scenes that the solver is set up for
 /// @throws NotSolved as the kinds do.
 SolverChoice choose_solver(SolverKind kind, const ContactBoundary& candidates, const Scene& scene,

@@ -27,10 +27,10 @@ struct ContactState {
 /**
  * The linear problem on one mesh, as contact iterations see it:
  *
- *     K u = f - N,   N = 0 but on contact nodes, where either u_i (pinned) or N_i is given.
+ *     K u = f - N,   N = 0 except at contact nodes.
  *
- * The contact nodes are few, and known to every process in full; whatever else the solution needs
- * belongs to the kind of solver.
+ * At each contact node either u_i (pinned) or N_i is given. The contact nodes are few, and every
+ * process has all of them. The other data of the solution are members of the two kinds of solver.
  */
 class ContactLinearSolver {
 public:

@@ -13,9 +13,8 @@ namespace rollwave {
  *
  *     K_ff u_f = f_f - N_f - K_fp u_p,   then   N_p = f_p - K_pf u_f - K_pp u_p,
  *
- * started from the field of the solve before. On several processes each solve ends with one sum
- * over all of them for the values at the contact nodes. All processes then choose the same active
- * set.
+ * started from the field of the solve before. The values at the contact nodes are summed over the
+ * processes, so that all processes have the same numbers and choose the same active set.
  */
 class IterativeSolver : public ContactLinearSolver {
 public:

@@ -17,10 +17,10 @@ struct Family {
 
 std::vector<Family> find_families(const Study& study);
 
-/// For each family with two meshes or more the errors over the number N of unknowns with their
-/// orders in N^(-1/2), which is h up to a constant where all cells are cut alike. With three meshes
-/// or more also the orders over the last three refinements, fitted by least squares, with the
-/// standard errors of the fits.
+/// Prints a table for each family with two or more meshes: the errors and their orders in
+/// N^(-1/2), N the number of unknowns. N^(-1/2) is h up to a constant if all cells are cut alike.
+/// For three or more meshes it also prints the orders over the last three refinements, fitted by
+/// least squares, with standard errors.
 void report_orders(std::ostream& out, const Study& study);
 
 } // namespace rollwave

@@ -6,7 +6,7 @@
 
 namespace rollwave {
 
-/// The first line of study.csv: `scene` where there are several, the varied keys, `solved`,
+/// The first line of study.csv: `scene` if Study/Scenes is given, the varied keys, `solved`,
 /// `published_steps`, `reference`, `failure`, `remarks`, `files`, result_quantities(), `shared`.
 std::string csv_header(const Study& study);
 

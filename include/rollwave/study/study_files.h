@@ -15,8 +15,8 @@ namespace rollwave {
  *   study-map.svg: the vertical load over two such keys;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   over h, unknowns and seconds;
- * - study.svg: contact steps over the key that varies fastest, where that is a number and the
- *   steps of the runs differ.
+ * - study.svg: contact steps on uniform meshes over the key that varies fastest, where that is a
+ *   number and the steps of the runs differ.
  *
  * @throws NotWritten
  */

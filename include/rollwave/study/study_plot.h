@@ -28,11 +28,11 @@ struct Panel {
 /// The most curves that can be distinguished in one panel.
 constexpr unsigned int most_curves = 6;
 
-/// All numbers below @p n, or @p most of them at equal distances.
+/// At most @p most of the numbers 0 to n - 1, equally spaced.
 std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most);
 
-/// Panels in rows of two. They have the same curves, with one legend below them. Of more than
-/// most_curves curves it shows some at equal distances, and the title says so.
+/// Panels in rows of two. They have the same curves, with one legend below them. If there are more
+/// than most_curves curves, it shows most_curves of them, equally spaced, and the title says so.
 Picture plot_panels(std::string title, std::vector<Panel> panels);
 
 /// Values over a grid of x and y as colours with contour lines, in lines of constant x.

@@ -4,6 +4,7 @@
 #include "rollwave/scene/units.h"
 #include "rollwave/study/study_plan.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,7 +36,11 @@ struct Study {
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
   /// vary together.
   std::vector<unsigned int> first_key_of_part = {};
-  std::string shortfall = ""; ///< where the user has interrupted it; mostly empty
+  std::string shortfall = ""; ///< set if the user has interrupted it, otherwise empty
+
+  std::size_t n_ended() const {
+    return runs.size() - std::count(runs.begin(), runs.end(), std::nullopt);
+  }
 
   /// The value of one of result_quantities() or of `published_steps`, where it is known.
   /// @throws std::out_of_range for another name

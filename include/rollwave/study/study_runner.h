@@ -12,8 +12,8 @@ namespace rollwave {
 Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
- * Makes the runs of a planned @p study and prints a line on @p out when a run has ended. A run that
- * cannot be solved is a run like the others.
+ * Makes the runs of a planned @p study and prints a line on @p out when a run has ended. If a run
+ * cannot be solved, its row has the reason, and the study continues.
  *
  * Each run adds its row to study.csv, and its pressures to study-profiles.csv.
  * Where parameters.prm in the directory is that of the same study, runs that study.csv has as

@@ -17,8 +17,9 @@ std::string table_as_text(const Study& study);
 /// The same as a LaTeX document.
 std::string table_as_tex(const Study& study);
 
-/// Prints the first failure and the first remarks, each with the number of runs that have any, and
-/// the orders of convergence. study.csv has the failures and remarks of every run.
+/// Prints the meaning of the columns, the first failure, the first shortfall and the first remarks,
+/// each with the number of runs that have one, and the orders of convergence. study.csv has the
+/// failures and remarks of every run.
 void print_study_notes(std::ostream& out, const Study& study);
 
 } // namespace rollwave

@@ -14,8 +14,9 @@ namespace rollwave {
 std::optional<ExactSolution> find_exact_solution(const Scene& scene,
                                                  std::string* why_none = nullptr);
 
-/// The distance at which the exact solution has the load of Scene::load, to 1e-11, sought from
-/// that of @p scene on; nullopt where no exact solution is known.
+/// The distance at which the exact solution has the load of Scene::load, by the secant method from
+/// the distance of @p scene, to a relative change of 1e-11. nullopt if no exact solution is known,
+/// or 20 steps are not enough.
 std::optional<double> find_exact_distance(const Scene& scene);
 
 } // namespace rollwave

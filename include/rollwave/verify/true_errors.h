@@ -12,10 +12,10 @@ namespace rollwave {
  *     a(u - u_h, u - u_h) = a(u, u) - 2 a(u, u_h) + a(u_h, u_h),
  *     a(u, u_h) = (f, u_h) - b int lambda u_h dz.
  *
- * Cancellation sets a floor of about 5e-6 to the relative error (1e-5 where the zone cuts the
- * contact short and the exact pressure is singular), and an exact pressure that is not resolved may
- * set a higher one, which shows where a(u - v, u - v) is clearly more than 2 (J(v) - J(u)). The
- * pressure is compared at the nodes by the rule [.,.]_h, nodes at which it is singular left out.
+ * Cancellation hides relative errors below about 5e-6, or 1e-5 if the zone cuts the contact short
+ * and the exact pressure is singular. An exact pressure that is not resolved may hide larger ones;
+ * then a(u - v, u - v) is clearly more than 2 (J(v) - J(u)). The pressures are compared at the
+ * nodes by the rule [.,.]_h, without nodes at which the exact one is singular.
  *
  * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
  *
