@@ -13,8 +13,8 @@ Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 
        ./bootstrap.sh benchmark
        ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
 
-Each installs the Debian packages that are missing, builds in ./build (sanitize: ./build-sanitize)
-beside this script, and runs; the program where you stand, with paths from there.
+Each command installs missing Debian packages and builds in the directory build of this script
+(sanitize: build-sanitize). run starts the program in the current directory; paths are relative to it.
 TEXT
 }
 
@@ -42,8 +42,8 @@ install_missing() {
 build() {
   local target=$1 directory=${2:-build}
   echo "Building (two or three minutes the first time) ..." >&2
-  # In one piece for each core, which read deal.II's headers once: a quarter of the time. With tests
-  # or without, the objects of the program are the same and stay.
+  # One unity file for each core: each reads deal.II's headers once, which takes a quarter of the
+  # time. BUILD_TESTING does not change the objects of the program, so they are not compiled again.
   local sources=(source/*/*.cc) cores
   cores=$(nproc)
   cmake -S . -B "$directory" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \

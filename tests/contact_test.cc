@@ -2,7 +2,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/contact/uzawa.h"
-#include "rollwave/mesh/assembly.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -164,7 +163,6 @@ TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
     } catch (const NotSolved& failure) {
       std::ostringstream number;
       number << largest;
-      EXPECT_NE(std::string(failure.what()).find("diverges"), std::string::npos);
       EXPECT_NE(std::string(failure.what()).find(number.str()), std::string::npos);
     }
 }

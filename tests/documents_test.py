@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documents keep their promises: links and named files exist, commands run and print what the
+"""Checks the documents: links and named files exist, commands run and print what the
 documents quote, options of all commands are accepted, tables are those of doc/results, and
 doc/parameters.md and doc/quantities.md are what the program prints.
 

@@ -1,8 +1,6 @@
 // Whatever ends a run, it says why, and every file is complete or absent; a stopped study goes on.
 #include "program.h"
-#include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
-#include "rollwave/contact/contact_problem.h"
 #include "test_scenes.h"
 
 #include <nlohmann/json.hpp>
@@ -146,18 +144,14 @@ protected:
   }
 };
 
-/// study.csv without what a run costs.
+/// study.csv without its last columns: work, seconds, memory and shared.
 std::vector<std::string> figures_of_study(const std::string& csv) {
-  std::vector<std::string> rows;
-  for (const std::string& line : lines_of(csv)) {
-    const auto header = lines_of(csv).front();
-    // Work, seconds and memory are the last columns.
-    const auto n_costs = std::count(header.begin() + header.find(",work."), header.end(), ',') + 1;
-    std::string row = line;
+  std::vector<std::string> rows = lines_of(csv);
+  const std::string header = rows.front();
+  const auto n_costs = std::count(header.begin() + header.find(",work."), header.end(), ',');
+  for (std::string& row : rows)
     for (int i = 0; i < n_costs; ++i)
       row.erase(row.rfind(','));
-    rows.push_back(row);
-  }
   return rows;
 }
 

@@ -60,7 +60,7 @@ TEST(ForceIntegral, IsExactForNumbers) {
 TEST(ForceIntegral, IsExactForPolynomials) {
   OnMesh force("r*(z-3)", 3, "4", "30");
   const auto exact = [](double r, double z) { return (1 - r * r * r) / 3 * (z - 3); };
-  // But in the cell in which z jumps by 2 pi, which begins a quarter of the way round the mesh.
+  // z jumps by 2 pi at three quarters of the mesh: inside a cell of 30, on an edge of 32.
   OnMesh aligned("r*(z-3)", 3, "4", "32");
   EXPECT_LT(aligned.distance_to(exact), 1e-13);
   EXPECT_LT(aligned.integral.error(), 1e-6);
@@ -111,7 +111,7 @@ TEST(ForceIntegral, SeesAJumpAlongRWhereverItIs) {
       const auto exact = [place](double r, double) {
         return r < place ? (place * place - r * r) / 2 : 0;
       };
-      OnMesh force("if(r<" + digits(place) + ",1,0)", degree, "4", "8");
+      OnMesh force("if(r<" + shortest_text(place) + ",1,0)", degree, "4", "8");
       EXPECT_LE(force.distance_to(exact), force.integral.error()) << place << ", degree " << degree;
     }
 }

@@ -10,14 +10,11 @@
 #include "test_scenes.h"
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
-#include <sys/resource.h>
 
 using namespace rollwave;
 using dealii::Vector;

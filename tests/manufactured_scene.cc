@@ -67,10 +67,10 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
                              {force, 0, 0},
                              norm_squared / 2,
                              norm_squared,
+                             0, // peak_pressure
                              0,
                              0,
-                             0,
-                             0,
+                             0, // accuracies
                              end_exponent,
                              true,
                              pressure}};

@@ -7,7 +7,8 @@ namespace rollwave {
 
 struct ManufacturedScene {
   Scene scene;
-  ExactSolution exact; ///< without peak_pressure, which is left zero
+  ExactSolution
+      exact; ///< other loads than F, peak pressure and accuracies are not computed and are 0
 };
 
 /**

@@ -39,7 +39,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('exact/galerkin_pressure', 'free - road.displacement(x)', 'road.displacement(x) - free'),
     ('exact/galerkin_pressure', 'std::pow(k * w, -2 * nu - 1)', 'std::pow(k * w, -2 * nu)'),
     ('exact/galerkin_pressure', 'j == 0 ? 1 : 2', '2'),
-    ('exact/bessel_modes', 'return k - x * x / boost', 'return k + x * x / boost'),
+    ('exact/bessel_modes', 'return k - x * x /', 'return k + x * x /'),
 ]
 TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffness*:Load.*:Road.*:FullContact*:Contact*:'
          'Certificate.*:AdmissiblePressure.*:ForceIntegral*:Stability.*:ExactSolution*:Bessel*:Gegenbauer*:ManufacturedScene*:TrueErrors*')

@@ -3,7 +3,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/study/study_plan.h"
 #include "test_scenes.h"
@@ -283,7 +282,7 @@ TEST(Parameters, SayHowManyUnknownsWereTooMany) {
   EXPECT_NE(allowed.find("MiB of memory"), std::string::npos) << allowed;
 }
 
-TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
+TEST(SceneOfParameters, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
   const Scene scene =
       make_scene(parameters_of({"Cylinder/Outer radius=2", "Road/Distance=1.7",
                                 "Cylinder/Angular velocity=0.1", "Cylinder/Radial force=0.1*r"}));
@@ -291,7 +290,7 @@ TEST(Scene, ZoneOfAnUnevenForceIsWhereTheRoadIsNearerThanTheOuterRadius) {
   EXPECT_NEAR(scene.phi(scene.zone_end) * scene.units.length, 2, 1e-13);
 }
 
-TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
+TEST(SceneOfParameters, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
   for (const char* const force : {"0", "0.3", "-0.05"}) {
     const Parameters parameters =
         parameters_of({"Mesh/Angular cells=100", std::string("Cylinder/Radial force=") + force});
@@ -307,7 +306,7 @@ TEST(Scene, ZoneOfAnEvenForceIsWhereTheRoadCanBeTouched) {
   EXPECT_NEAR(bulging.phi(bulging.zone_begin), 1, 1e-14);
 }
 
-TEST(Scene, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
+TEST(SceneOfParameters, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
   const Scene scene = make_scene(parameters_of(
       {"Cylinder/Inner radius=3e-150", "Cylinder/Outer radius=5e-150",
        "Cylinder/Angular velocity=1e149", "Road/Distance=4e-150", "Cylinder/Radial force=1e150"}));
@@ -320,7 +319,7 @@ TEST(Scene, LengthsAreInAPowerOfTwoNearTheOuterRadius) {
   EXPECT_EQ(scene.force(1, 0) / scene.units.length, 1e150);
 }
 
-TEST(Scene, ForceIsAnExpressionInRAndZ) {
+TEST(SceneOfParameters, ForceIsAnExpressionInRAndZ) {
   const Scene scene = make_scene(parameters_of({"Cylinder/Radial force=r^2*cos(z) + pi"}));
   EXPECT_NEAR(scene.force(0.7, 2.), 0.49 * std::cos(2.) + M_PI, 1e-15);
   EXPECT_FALSE(make_scene(parameters_of({"Cylinder/Radial force=0.0"})).force);

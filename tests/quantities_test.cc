@@ -4,7 +4,6 @@
 
 #include "rollwave/base/text.h"
 #include "rollwave/output/summary_json.h"
-#include "rollwave/scene/units.h"
 #include "test_scenes.h"
 
 #include <gtest/gtest.h>

@@ -60,6 +60,15 @@ TEST(Remarks, WarnIfTheMeshDoesNotResolveTheContact) {
   EXPECT_TRUE(have(remarks_with({"Road/Distance=0.995"}), "held by 3 nodes"));
 }
 
+TEST(Remarks, WarnIfTheForceIsMostOfTheBound) {
+  const std::string remark = "the force expression makes up";
+  EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=if(z > 4.5 && z < 5, 1, 0)"}), remark));
+  // On edges of the cells, and without a jump.
+  EXPECT_FALSE(
+      have(remarks_with({"Cylinder/Radial force=if(z > 1.4*pi && z < 1.6*pi, 1, 0)"}), remark));
+  EXPECT_FALSE(have(remarks_with({"Cylinder/Radial force=1"}), remark));
+}
+
 TEST(Remarks, WarnIfTheBoundCertifiesNoDigit) {
   const auto hairline = remarks_with({"Road/Distance=0.999999"});
   EXPECT_TRUE(have(hairline, "no digit is certified"));

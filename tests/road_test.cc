@@ -79,7 +79,8 @@ TEST(Road, InsideOfADrumMustBeLargerThanTheCylinder) {
   EXPECT_NO_THROW(make_scene(parameters_of({"Road/Curvature=-0.99"})));
 }
 
-// The axle sees it under an angle that is a thousand times the accuracy of angles, in any unit.
+// At the limit the drum spans an angle at the axle that is a thousand times the accuracy of angles,
+// in any unit.
 TEST(Road, RefusesDrumsBelowTheResolutionOfAngles) {
   for (const double b : {1., 0.035, 700.})
     for (const double curvature : {0.99e10, 1.01e10, 1e16}) {

@@ -2,10 +2,10 @@
 
 Usage: scaling.py ROLLWAVE FILE.prm [RANKS]    (from 1 to RANKS by doubling; default 2)
 
-A rank is one core: also a single one has no threads. Ratios are of runs in turn, the best of five each.
-Runs apart have nothing to do with each other: what they lose is what the machine has less of for each
-core. Seconds are those of summary.json, without the start of the processes. The solve is all from the
-degrees of freedom to the displacement.
+Each rank has one core and no threads, also a single one. Cases run in turn, five times; the fastest run
+counts. Runs "apart" do not communicate: if they are slower than one run alone, the cores share a
+resource such as memory bandwidth. Seconds are those of summary.json. "of the solve" counts the phases
+space, assembly, preconditioner and contact.
 """
 
 import json

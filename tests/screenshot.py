@@ -68,7 +68,7 @@ bar = vtk.vtkScalarBarActor()
 bar.SetLookupTable(colours)
 bar.SetTitle(displacement)
 bar.SetNumberOfLabels(5)
-bar.SetLabelFormat('%.2f')
+bar.SetLabelFormat('%.3g')
 bar.SetUnconstrainedFontSize(True)
 bar.SetVerticalTitleSeparation(16)
 for text in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):

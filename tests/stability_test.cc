@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <regex>
 #include <string>
@@ -122,8 +121,7 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
   }
 }
 
-// With many cells marked the last one has next to no error, and parts of others would be cut until
-// they have as little.
+// A cell is cut at most once in a cycle, also if nearly all cells are marked.
 TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
   for (const char* marking : {"Mesh/Marking=bulk", "Mesh/Marking=all"})
     for (const char* fraction : {"Mesh/Marked fraction=0.6", "Mesh/Marked fraction=1"}) {

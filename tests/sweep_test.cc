@@ -150,9 +150,9 @@ TEST(SweepStudy, RowsOfRandomStudiesAreSingleRuns) {
   Draw draw(11);
   for (unsigned int i = 0; i < n_studies; ++i) {
     const auto values = [&](const std::string& key, double low, double high) {
-      std::string text = key + " = " + digits(draw.number(low, high));
+      std::string text = key + " = " + shortest_text(draw.number(low, high));
       for (int n = draw.count(1, 2); n > 0; --n)
-        text += " | " + digits(draw.number(low, high));
+        text += " | " + shortest_text(draw.number(low, high));
       return text;
     };
     std::vector<std::string> keys = {

@@ -6,21 +6,12 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <iomanip>
-#include <limits>
 #include <random>
-#include <sstream>
 
 namespace rollwave {
 
-std::string digits(double value) {
-  std::ostringstream text;
-  text << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
-  return text.str();
-}
-
 std::string assignment(const std::string& key, double value) {
-  return key + "=" + digits(value);
+  return key + "=" + shortest_text(value);
 }
 
 Parameters parameters_of(const std::vector<std::string>& assignments) {

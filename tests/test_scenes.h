@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rollwave/base/text.h"
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
@@ -11,9 +12,6 @@
 #include <vector>
 
 namespace rollwave {
-
-/// All digits of @p value.
-std::string digits(double value);
 
 /// Such as "Road/Distance=0.80000000000000004".
 std::string assignment(const std::string& key, double value);

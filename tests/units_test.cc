@@ -95,7 +95,8 @@ TEST(Units, GiveTheSameSceneAtEverySpeed) {
 
 TEST(Units, HoldForAForceThatIsAnExpression) {
   const std::string f = "0.3 + 0.5*r*cos(z)";
-  const std::string in_si = digits(mu / b) + " * (0.3 + 0.5*(r/" + digits(b) + ")*cos(z))";
+  const std::string in_si =
+      shortest_text(mu / b) + " * (0.3 + 0.5*(r/" + shortest_text(b) + ")*cos(z))";
   expect_same(
       values_of(solve(cylinder(true, 0.5),
                       {assignment("Road/Distance", 0.8 * b), "Cylinder/Radial force=" + in_si})),
@@ -122,8 +123,8 @@ TEST(Units, HoldForTheRowsOfAStudy) {
   const auto rows = [](bool is_si) {
     auto settings = cylinder(is_si, 0.5);
     const double unit = is_si ? b : 1;
-    settings.push_back("Study/Vary=Road/Distance = " + digits(0.9 * unit) + " | " +
-                       digits(0.7 * unit));
+    settings.push_back("Study/Vary=Road/Distance = " + shortest_text(0.9 * unit) + " | " +
+                       shortest_text(0.7 * unit));
     Parameters parameters = parameters_of(settings);
     parameters.output.directory = own_path().string();
     std::filesystem::remove_all(own_path());

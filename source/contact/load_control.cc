@@ -21,9 +21,9 @@ namespace {
                               double load) {
   std::ostringstream text;
   text.precision(6);
-  text << "no distance gives this load: where the road is " << where << " the axle, at "
+  text << "no distance gives this load: the road is " << where << " the axle at the distance "
        << distance * scene.units.length << scene.units.after(Quantity::length)
-       << ", the load is about " << load * scene.units.of(Quantity::force)
+       << ", and the load there is about " << load * scene.units.of(Quantity::force)
        << scene.units.after(Quantity::force);
   throw BadValue("Road", "Load", text.str());
 }

@@ -16,7 +16,7 @@ namespace {
 
 [[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
                           const ContactOptions& options, double rho, std::size_t steps,
-                          double reached) {
+                          double smallest) {
   // Below the first of these the method converges from any start; above the second it diverges even
   // from near the solution.
   const ContactSolution exact = active_set(solver, problem, options.most_steps);
@@ -25,8 +25,8 @@ namespace {
                largest = 2 / largest_compliance(solver, problem, exact.active);
   std::ostringstream message;
   message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
-          << " with rho = " << rho / problem.unit << ": after " << steps
-          << " steps its residual is " << reached << ", wanted " << options.tolerance << "; ";
+          << " with rho = " << rho / problem.unit << ": the smallest residual of " << steps
+          << " steps is " << smallest << ", wanted " << options.tolerance << "; ";
   if (rho < safe)
     message << "raise Contact/Tolerance above round-off";
   else

@@ -19,7 +19,7 @@ bool is_in_zone(const SurfaceEdge& edge, const Scene& scene) {
   return scene.is_in_zone(edge.begin) && scene.is_in_zone(edge.end);
 }
 
-/// Nodal force over the node's share of the edge_pressures that lie in the zone, for all surface
+/// Nodal force over the node's share of the edges that lie in the zone, for all surface
 /// nodes.
 std::vector<double> nodal_pressures(const ContactBoundary& boundary, const Scene& scene,
                                     const ContactSolution& contact) {
@@ -36,10 +36,10 @@ std::vector<double> nodal_pressures(const ContactBoundary& boundary, const Scene
   return pressures;
 }
 
-/// Moves forces off the edge_pressures beyond a vertex where contact ends: they would lie under a
-/// gap there. They stay if the pressure, continued along a line from the edge in contact, does not
-/// end within a third of the edge: the multiple of 1 - t nearest to 1 - t / t_0 is positive for t_0
-/// > 1/3.
+/// Moves forces off an edge beyond the vertex where contact ends, since they would lie under a gap
+/// there. They stay if the pressure, continued along a line from the edge in contact, does not end
+/// within a third of the edge: the multiple of 1 - t nearest to 1 - t / t_0 is positive for
+/// t_0 > 1/3.
 void move_into_contact(const std::vector<SurfaceEdge>& edges, const std::vector<double>& pressures,
                        std::vector<EdgePressure>& edge_pressures) {
   const auto n_pressed = [&](unsigned int edge) {
@@ -90,8 +90,9 @@ std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, 
       edge_pressures.back().slope = pressures[edge.nodes[degree]] - pressures[edge.nodes[0]];
   }
   move_into_contact(space.surface_edges(), pressures, edge_pressures);
-  for (EdgePressure& edge :
-       edge_pressures) // so that lambda >= 0; the means are sums of such pressures
+  // The means are sums of pressures >= 0. The limits of the slope keep lambda >= 0 at both
+  // vertices.
+  for (EdgePressure& edge : edge_pressures)
     edge.slope = std::clamp(edge.slope, -2 * edge.mean, 2 * edge.mean);
   return edge_pressures;
 }

@@ -131,7 +131,7 @@ SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Qu
     coarse_lines.push_back(on_line(point[0], ends, midpoint));
   }
   for (unsigned int i = 0; i < n_lines; ++i) {
-    // Jumps at the ends are those of the neighbour.
+    // The lines stay inside of the cell: a jump at its end belongs to the neighbour.
     const double t = std::clamp(i / (n_lines - 1.), 1e-8, 1 - 1e-8);
     std::vector<double> missed = on_line(t, ends, midpoint);
     for (unsigned int k = 0; k < ends.size(); ++k) {

@@ -31,7 +31,7 @@ namespace {
 constexpr auto smoothing = Triangulation<2>::limit_level_difference_at_vertices;
 constexpr double seam_angle = numbers::PI / 2;
 
-/// @p n + 1 places from @p begin to @p end at equal distances, without the first.
+/// Appends @p n places at equal distances after @p begin, the last one at @p end.
 void append_equal(std::vector<double>& places, double begin, double end, int n) {
   for (int i = 1; i < n; ++i)
     places.push_back(begin + (end - begin) * i / n);

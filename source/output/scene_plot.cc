@@ -168,7 +168,7 @@ const char* const pressure = R"(
 set tmargin at screen 0.31
 set bmargin at screen 0.11
 set format x '%g'
-set xlabel 'angle from the lowest point / rad'
+set xlabel 'angle from the lowest point [rad]'
 plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
      '$contact' using 1:3 with lines linestyle 1 linecolor rgb '#b3541e'
 )";

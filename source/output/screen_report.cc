@@ -63,11 +63,13 @@ void report_history(std::ostream& out, const Result& result, const Units& units)
     if (result.rho > 0)
       table.add_value("residual", history[step].residual);
   }
-  for (const std::string& column : {penetration, lowest_pressure, std::string("residual")})
-    if (result.rho > 0 || column != "residual") {
-      table.set_precision(column, 3);
-      table.set_scientific(column, true);
-    }
+  std::vector<std::string> columns = {penetration, lowest_pressure};
+  if (result.rho > 0)
+    columns.push_back("residual");
+  for (const std::string& column : columns) {
+    table.set_precision(column, 3);
+    table.set_scientific(column, true);
+  }
   out << table_text(table);
   if (history.size() > most_lines)
     out << "... steps " << most_lines / 2 + 1 << " to " << history.size() - most_lines / 2

@@ -92,10 +92,10 @@ void declare_road(Keys& keys, RoadOptions& road) {
       "Contact zone", road.contact_zone, "auto",
       Patterns::Tuple(",", Patterns::Double(), Patterns::Double()),
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
-      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\": the angles "
-      "at which the surface without contact would penetrate the road, and two cells more at each "
-      "end, but only where the road is nearer than 2 b to the axle; all of these angles if the "
-      "force is not uniform.",
+      "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\": if "
+      "the force is uniform, the angles at which the surface without contact would penetrate the "
+      "road, and two cells more at each end; otherwise the angles at which the road is nearer than "
+      "2 b to the axle, which is also the widest zone.",
       {Affects::mesh, "[z0, z1]"});
 }
 

@@ -52,8 +52,8 @@ Quantities mesh_quantities() {
        all_digits, [](const Result& r) { return r.mesh.n_contact_nodes; }},
       {"mesh.h_min", "smallest diameter of a cell in (r, b z)", "", Quantity::length, 0, all_digits,
        [](const Result& r) { return r.mesh.h_min; }},
-      {"mesh.h_max", "largest diameter of a cell h", "", Quantity::length, 0, all_digits,
-       [](const Result& r) { return r.mesh.h_max; }},
+      {"mesh.h_max", "h, the largest diameter of a cell in (r, b z)", "", Quantity::length, 0,
+       all_digits, [](const Result& r) { return r.mesh.h_max; }},
   };
 }
 
@@ -93,9 +93,9 @@ Quantities contact_quantities() {
        [](const Result& r) {
          return r.contact.patches.size() < 2 ? r.contact.half_width() : not_known;
        }},
-      {"contact.left_end", "begin of the first patch", "", Quantity::angle, 0, all_digits,
+      {"contact.left_end", "left end of the first patch", "", Quantity::angle, 0, all_digits,
        [](const Result& r) { return r.contact.ends ? r.contact.ends->first : not_known; }},
-      {"contact.right_end", "end of the last patch", "", Quantity::angle, 0, all_digits,
+      {"contact.right_end", "right end of the last patch", "", Quantity::angle, 0, all_digits,
        [](const Result& r) { return r.contact.ends ? r.contact.ends->second : not_known; }},
       {"contact.length", "length of the road in contact", "", Quantity::length, Shown::curve,
        all_digits,
@@ -268,11 +268,12 @@ const ResultQuantity& result_quantity(const std::string& name) {
 void print_quantities(std::ostream& out) {
   Units units; // whose names are the dimensions
   units.material.unit_names = {"length", "time", "force"};
-  out << "Every number is in summary.json and study.csv. The symbol is its heading in tables. "
-         "Shown:\n"
-         "screen (a line under Result; contact ends, bounds, residuals, mesh and seconds are on "
+  out << "Every number is in summary.json and study.csv. The heading of its column in tables is "
          "the\n"
-         "screen too), study.txt, the table of orders, or study-curves.svg (curves).\n\n"
+         "symbol or, without one, the meaning. Shown: screen (a line under Result; contact ends,\n"
+         "bounds, residuals, mesh and seconds are on the screen too), study.txt, the table of "
+         "orders,\n"
+         "or study-curves.svg (curves).\n\n"
          "| name | meaning | symbol | unit | shown |\n|---|---|---|---|---|\n";
   for (const ResultQuantity& quantity : result_quantities()) {
     out << "| `" << quantity.name << "` | " << quantity.words << " | " << quantity.symbol << " | "
@@ -280,7 +281,7 @@ void print_quantities(std::ostream& out) {
     const char* separator = " ";
     for (const auto& [flag, place] : {std::pair(Shown::screen, "screen"),
                                       {Shown::table, "study.txt"},
-                                      {Shown::varied_table, "study.txt if varied"},
+                                      {Shown::varied_table, "study.txt if it differs between runs"},
                                       {Shown::orders, "orders"},
                                       {Shown::curve, "curves"}})
       if (quantity.shown & flag) {

@@ -76,15 +76,15 @@ std::string remark_on_certificate(const RunOptions& options, const Result& resul
                          : "; refine, or set Mesh/Wanted relative error");
 }
 
-/// On a bound that the force expression limits, not the mesh.
+/// On a bound of which the force expression is the larger part.
 std::string remark_on_force(const Result& result) {
   if (!result.certified || !std::isfinite(result.certified->energy_norm))
     return {};
   const double share = result.certified->force_data / result.certified->energy_norm;
   if (!(share > 0.5))
     return {};
-  return "the force expression limits the bound, not the mesh: its share is " +
-         rounded(100 * share, 2) + " %; if it jumps, put the jumps on edges of cells";
+  return "the force expression makes up " + rounded(100 * share, 2) +
+         " % of the bound; put its jumps on edges of cells, or refine the mesh";
 }
 
 /// On contact that the mesh is too coarse for.

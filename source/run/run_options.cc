@@ -8,7 +8,7 @@ namespace rollwave {
 
 namespace {
 
-/// Refuses options that need the certificate where there is none.
+/// Refuses options that need the certificate if Certificate/Error bound is false.
 void check_certificate(const RunOptions& options) {
   if (options.certificate.error_bound)
     return;

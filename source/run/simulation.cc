@@ -117,7 +117,9 @@ void add_load_bounds(const RunOptions& options, Discretisation& mesh, const Mesh
       result.remarks.push_back("the distance has no bounds: those of the energy are too wide on "
                                "this mesh; refine it");
   } else
-    result.remarks.push_back("the distance has bounds only if Road/Load kind is work-conjugate");
+    result.remarks.push_back(
+        "there are no bounds of G or c for a given vertical or total load; give "
+        "Road/Distance for bounds of G, or Road/Load kind = work-conjugate");
 }
 
 /// Adds the targets that were not reached, and the remarks.

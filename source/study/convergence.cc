@@ -154,12 +154,11 @@ void report_orders(std::ostream& out, const Study& study) {
     if (meshes.size() > 2)
       print_fits(out, study, meshes);
   }
-  if (has_orders)
-    out << "certified and error are relative. The other errors are absolute, that of the pressure "
-           "in "
-           "the\ndiscrete L2 norm. Single orders scatter with the position of the ends of contact "
-           "in "
-           "their cells.\n";
+  if (has_orders && study.has("error.exact_relative"))
+    out << "certified and error are relative. The other errors are absolute, that of the pressure\n"
+           "in the discrete L2 norm. Single orders scatter with the position of the ends of "
+           "contact\n"
+           "in their cells.\n";
 }
 
 } // namespace rollwave

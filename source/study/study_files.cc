@@ -1,256 +1,21 @@
 #include "rollwave/study/study_files.h"
 
-#include "rollwave/adapt/marking.h"
-#include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
-#include "rollwave/run/quantities.h"
-#include "rollwave/scene/units.h"
-#include "rollwave/study/convergence.h"
-#include "rollwave/study/study_plot.h"
+#include "rollwave/study/study_pictures.h"
 #include "rollwave/study/study_table.h"
 
 #include <deal.II/base/data_out_base.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
+#include <filesystem>
 #include <sstream>
-#include <stdexcept>
-#include <tuple>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace rollwave {
 
-using namespace dealii;
-
 namespace {
-
-/// Leaves a gap in a curve.
-constexpr double missing_point = std::numeric_limits<double>::quiet_NaN();
-
-/// The numbers that a key takes in all runs, without entries where one of its values is no number.
-std::vector<double> numbers_of(const Study& study, unsigned int key) {
-  std::vector<double> numbers;
-  try {
-    for (const RunPlan& plan : study.plans)
-      numbers.push_back(to_number(plan.varied[key].value));
-  } catch (const std::invalid_argument&) {
-    return {};
-  }
-  return numbers;
-}
-
-/// The key that varies fastest: the first of the last part of Study/Vary, which must not be empty.
-const Setting& fastest_key(const Study& study, const RunPlan& plan) {
-  return plan.varied[study.first_key_of_part.back()];
-}
-
-/// The numbers of the key that varies fastest, without entries where it has none.
-std::vector<double> fastest_numbers(const Study& study) {
-  return study.first_key_of_part.empty() ? std::vector<double>()
-                                         : numbers_of(study, study.first_key_of_part.back());
-}
-
-/// True for the keys of the scene, false for those of the method.
-bool is_of_scene(const Setting& setting) {
-  return key_of(setting).affects & Affects::scene;
-}
-
-/// The values that all runs share: the keys that titles name, and others of the scene that are not
-/// at their defaults.
-std::string title_of(const Study& study) {
-  const RunPlan& plan = study.plans.front();
-  const std::vector<Setting>& settings = plan.parameters.settings;
-  std::string title;
-  for (const Key& key : all_keys()) {
-    const Setting setting{key.section, key.name, value_of(key, settings), ""};
-    const bool is_shared =
-        std::all_of(study.plans.begin(), study.plans.end(), [&](const RunPlan& other) {
-          return value_of(key, other.parameters.settings) == setting.value;
-        });
-    const bool is_named = (key.affects & Affects::titles) ||
-                          ((key.affects & Affects::scene) && setting.value != key.default_value);
-    if (is_shared && is_named && setting.value != "none")
-      title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
-  }
-  return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
-}
-
-/// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
-/// the other keys; another quantity gives the marks.
-std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
-                             const std::string& quantity, const std::string& marks = "") {
-  std::vector<Curve> curves;
-  for (unsigned int run = 0; run < study.plans.size(); ++run) {
-    const RunPlan& plan = study.plans[run];
-    const Setting* const last = &fastest_key(study, plan);
-    const std::string title =
-        label(plan, [last](const Setting& setting) { return &setting < last; });
-    // The runs of one curve follow each other, so that a new title begins a new curve.
-    if (curves.empty() || curves.back().title != title)
-      curves.push_back({title, {}, {}});
-    curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
-    if (!marks.empty() && study.has(marks))
-      curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
-  }
-  return curves;
-}
-
-std::string x_label_of(const Study& study) {
-  return axis_label(fastest_key(study, study.plans.front()), study.units());
-}
-
-/// The values of a quantity in all runs.
-std::vector<double> values_in_runs(const Study& study, const std::string& quantity) {
-  std::vector<double> values;
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    values.push_back(study.value(run, quantity).value_or(missing_point));
-  return values;
-}
-
-std::string label_of(const Study& study, const ResultQuantity& quantity) {
-  return quantity.words + (quantity.symbol.empty() ? "" : ' ' + quantity.symbol) +
-         study.units().in_brackets(quantity.quantity);
-}
-
-/// A panel for each quantity that is drawn over the last part of Study/Vary. The vertical load is
-/// drawn over the deflection if that varies.
-std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x) {
-  const ResultQuantity& deflection = result_quantity("scene.deflection");
-  const bool has_deflections = study.varies(deflection.name);
-  std::vector<Panel> panels;
-  for (const ResultQuantity& quantity : result_quantities())
-    if (has_deflections && quantity.name == "contact.vertical_load")
-      panels.push_back({label_of(study, deflection), label_of(study, quantity),
-                        curves_of(study, values_in_runs(study, deflection.name), quantity.name)});
-    else if (quantity.shown & Shown::curve)
-      panels.push_back(
-          {x_label_of(study), label_of(study, quantity), curves_of(study, x, quantity.name)});
-  return panels;
-}
-
-/// The error over the quantity @p x for each family of runs that differ in the fineness of their
-/// meshes: the true error or, if that is not known, its bound.
-/// @param order_factor slopes over expected orders; 0 for none
-Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
-                         double order_factor) {
-  const ResultQuantity& error = result_quantity(
-      study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
-  Panel panel{x_label, error.words, {}, true, true};
-  std::set<double> slopes;
-  for (const Family& family : find_families(study)) {
-    if (x == "mesh.h_max" && family.is_adaptive)
-      continue;
-    Curve curve{family.name, {}};
-    for (const unsigned int run : family.runs) {
-      if (study.value(run, x) && study.value(run, error.name))
-        curve.points.emplace_back(*study.value(run, x), *study.value(run, error.name));
-      if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
-        slopes.insert(order_factor * *order);
-    }
-    std::sort(curve.points.begin(), curve.points.end());
-    if (!curve.points.empty())
-      panel.curves.push_back(std::move(curve));
-  }
-  panel.slopes.assign(slopes.begin(), slopes.end());
-  return panel;
-}
-
-/// At most most_curves runs: at about equal distances of the key that varies, where its numbers
-/// @p x are known and no other key varies.
-std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double>& x) {
-  const auto numbers = equidistant_numbers(study.runs.size(), most_curves);
-  if (x.empty() || study.first_key_of_part.size() > 1 || x.size() <= most_curves)
-    return {numbers.begin(), numbers.end()};
-  const auto [least, largest] = std::minmax_element(x.begin(), x.end());
-  std::set<unsigned int> runs;
-  for (unsigned int i = 0; i < most_curves; ++i) {
-    const double wanted = *least + (*largest - *least) * i / (most_curves - 1);
-    const auto nearest = std::min_element(x.begin(), x.end(), [&](double left, double right) {
-      return std::abs(left - wanted) < std::abs(right - wanted);
-    });
-    runs.insert(nearest - x.begin());
-  }
-  return runs;
-}
-
-Panel profile_panel(const Study& study, const std::vector<double>& x) {
-  Panel panel{"angle from the lowest point / rad",
-              "contact pressure" + study.units().in_brackets(Quantity::pressure),
-              {}};
-  for (const unsigned int run : runs_to_show(study, x))
-    if (study.runs[run] && !study.runs[run]->pressure.empty()) {
-      panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
-      for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(from_lowest_point(z), pressure);
-    }
-  return panel;
-}
-
-/// The vertical load over two keys of the scene that have numbers; nullopt for other studies.
-std::optional<Picture> map_of_load(const Study& study) {
-  if (study.first_key_of_part.size() != 2 || !study.plans.front().scene.empty())
-    return {};
-  const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
-  const auto& varied = study.plans.front().varied;
-  if (!std::all_of(varied.begin(), varied.end(), is_of_scene) || x.empty() || y.empty() ||
-      x.front() == x.back() || y.front() == y.back())
-    return {};
-  std::vector<std::vector<std::array<double, 3>>> lines;
-  for (unsigned int run = 0; run < x.size(); ++run) {
-    if (run == 0 || x[run] != x[run - 1])
-      lines.emplace_back();
-    lines.back().push_back(
-        {{x[run], y[run], study.value(run, "contact.vertical_load").value_or(missing_point)}});
-  }
-  const Units units = study.units();
-  return plot_map(title_of(study), axis_label(varied[0], units),
-                  axis_label(varied[study.first_key_of_part[1]], units),
-                  "vertical load" + units.in_brackets(Quantity::force), lines);
-}
-
-/// Draws the plots that a study has data for.
-void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written) {
-  const std::string title = title_of(study);
-  const auto add = [&](const std::string& name, const std::vector<Panel>& panels,
-                       const std::string& remark = "") {
-    if (!panels.front().curves.empty())
-      draw(plot_panels(title + remark, panels), directory, name, written);
-  };
-  const auto x = fastest_numbers(study);
-  const bool is_over_method = !x.empty() && !is_of_scene(fastest_key(study, study.plans.front()));
-  if (const auto map = map_of_load(study))
-    draw(*map, directory, "study-map", written);
-  if (!is_over_method) {
-    if (!x.empty())
-      add("study-curves", curve_panels(study, x));
-    const Panel panel = profile_panel(study, x);
-    const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
-    add("study-profiles", {panel},
-        n_shown == n_runs
-            ? ""
-            : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
-  }
-  const bool has_errors =
-      study.has("error.exact_relative") || study.has("error.certified_relative");
-  if (has_errors && find_families(study).size() < study.plans.size())
-    for (const auto& [name, figure, label, order] :
-         {std::tuple("study-h", "mesh.h_max",
-                     "h, the largest diameter of a cell" +
-                         study.units().in_brackets(Quantity::length),
-                     1.),
-          {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
-          {"study-time", "seconds.total", std::string("seconds"), 0.}})
-      add(name, {errors_of_families(study, figure, label, order)});
-  const bool is_adaptive = // such runs begin with the contact of the mesh before
-      std::any_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps")) &&
-      study.varies("iterations.contact"))
-    add("study", {{x_label_of(study), "contact steps",
-                   curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
-}
 
 /// The fields of the runs with the number of the key that varies fastest, or else of the run, as
 /// time.
@@ -264,7 +29,7 @@ std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
         files.emplace_back(times.empty() ? run + 1 : times[run],
                            study.runs[run]->files + '/' + name);
   std::ostringstream text;
-  DataOutBase::write_pvd_record(text, files);
+  dealii::DataOutBase::write_pvd_record(text, files);
   return text.str();
 }
 

@@ -135,7 +135,8 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
   script.precision(9);
   script << "set grid\nset datafile missing 'NaN'\n";
   const bool is_single = panels.size() == 1;
-  unsigned int n_titles = panels[0].slopes.size(), longest = 0;
+  unsigned int n_titles = panels[0].slopes.size(),
+               longest = n_titles > 0 ? std::string("expected slope -0.75").size() : 0;
   for (const Curve& curve : panels[0].curves) {
     n_titles += curve.marks.empty() ? 1 : 2;
     longest = std::max<unsigned int>(longest, curve.title.size() + (curve.marks.empty() ? 0 : 10));
@@ -150,8 +151,8 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title "
          << in_single_quotes(with_short_numbers(title)) << " font '," << title_size(title, width)
-         << "' margins " << (is_single ? 0.14 : 0.09) << ",0.95,"
-         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.1,"
+         << "' margins " << (is_single ? 0.14 : 0.11) << ",0.96,"
+         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.13,"
          << 80. / height << '\n';
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k == 0 ? legend_rows : 0);

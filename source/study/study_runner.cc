@@ -12,7 +12,6 @@
 
 #include <deal.II/base/timer.h>
 
-#include <algorithm>
 #include <ostream>
 
 namespace rollwave {
@@ -63,7 +62,7 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
       out << line_of_run(study, run);
       ++n_made;
       const auto n_missing = study.runs.size() - study.n_ended();
-      constexpr unsigned int enough = 3; // to judge the others by
+      constexpr unsigned int enough = 3; // to estimate the time of the others
       if (n_made >= enough && n_missing > 0)
         out << ", about " << rounded(timer.wall_time() / n_made * n_missing, 2) << " s left";
       out << std::endl;

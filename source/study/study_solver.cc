@@ -104,7 +104,7 @@ Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
     run.shared = "mesh";
   }
   solution.reset();  // frees its memory first
-  last_mesh.reset(); // a run that fails leaves nothing
+  last_mesh.reset(); // if this run fails, the next one makes its own mesh
   const auto zone = widest_zone.find(key);
   if (zone == widest_zone.end())
     return simulate(scene, plan.parameters, communicator, progress);

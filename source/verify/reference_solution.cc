@@ -1,9 +1,6 @@
 #include "rollwave/verify/reference_solution.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/contact/contact_problem.h"
-
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +39,8 @@ std::optional<double> find_exact_distance(const Scene& scene) {
       return {};
     return exact->loads.of(scene.load->kind) - scene.load->value;
   };
-  // The secant method: that of the mesh is near, and each exact solution takes about a second.
+  // The secant method from the distance found on the mesh, which is close. Each exact solution
+  // takes about a second.
   constexpr double first_step = 1e-6, tolerance = 1e-11;
   constexpr int most_steps = 20;
   double before = scene.road.distance, c = before * (1 + first_step);

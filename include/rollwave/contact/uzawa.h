@@ -16,7 +16,7 @@ namespace rollwave {
  * Let theta be the largest eigenvalue of the compliance on a set of nodes, see
  * largest_compliance(). The method converges from any start if 0 < rho < 2 / theta for the set of
  * all contact nodes. It diverges if rho > 2 / theta for the nodes that are in contact at the
- * solution. The residual of a step length that is too large stops falling.
+ * solution. If the step length is too large, the residual stops falling.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.

@@ -19,10 +19,10 @@ struct EdgePressure {
 
 /**
  * The pressures lambda >= 0 of the certificate, one for each of RingSpace::surface_edges(): zero on
- * edges that lie not wholly in the zone; on the others their sum is the discrete contact force.
+ * edges that do not lie wholly in the zone; on the others their sum is the discrete contact force.
  *
- * Each has the mean of the discrete pressure and the difference of its values at the vertices, at
- * most 2 mean, which is as far as lambda >= 0. For degree 1 the slope is zero: the primitive of
+ * Each has the mean of the discrete pressure and the difference of its values at the vertices,
+ * limited to 2 mean in size so that lambda >= 0. For degree 1 the slope is zero: the primitive of
  * lambda on r = b is a StressFunction of this degree. Where contact ends close to a vertex, the
  * edge in contact gets the share of the edge outside, which would lie under the gap.
  */

@@ -43,9 +43,9 @@ void check_simulation(const RunOptions& options, unsigned int n_processes);
 Solution simulate(const Scene& scene, const RunOptions& options,
                   MPI_Comm communicator = MPI_COMM_SELF, const Progress& progress = {});
 
-/// The same on a given mesh, which may have served other scenes with the same mesh options and
-/// radii: only what depends on speed, force and zone is computed again where these differ.
-/// @param statistics the cost of the mesh, where it counts
+/// The same on a given mesh, which other scenes with the same mesh options and radii may have used.
+/// Only data that depend on speed, force or zone are computed again, if these differ.
+/// @param statistics work and seconds of making the mesh, if they are to be part of the result
 Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
                   RunStatistics statistics = RunStatistics(), const Progress& progress = {});
 

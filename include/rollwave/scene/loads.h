@@ -3,9 +3,9 @@
 namespace rollwave {
 
 enum class LoadKind {
-  vertical,      ///< "vertical": what the axle carries
+  vertical,      ///< "vertical": the load on the axle
   total,         ///< "total": the integral of the pressure
-  work_conjugate ///< "work-conjugate": what does work when the distance changes
+  work_conjugate ///< "work-conjugate": minus the derivative of the energy by the distance
 };
 
 /// The three loads b int lambda q dz, with x = z - 3 pi/2.

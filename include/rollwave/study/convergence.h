@@ -8,7 +8,7 @@
 
 namespace rollwave {
 
-/// Runs that differ in how fine their meshes are only, in the order of the study.
+/// Runs that differ only in the fineness of their meshes, in the order of the study.
 struct Family {
   std::string name; ///< the settings that they have in common
   std::vector<unsigned int> runs;

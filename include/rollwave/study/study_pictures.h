@@ -1,0 +1,30 @@
+#pragma once
+
+#include "rollwave/output/output_directory.h"
+#include "rollwave/study/study_record.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace rollwave {
+
+/// The numbers of the key that varies fastest in all runs, without entries if its values are not
+/// numbers.
+std::vector<double> fastest_numbers(const Study& study);
+
+/**
+ * Draws the pictures that a study has data for, each with its gnuplot script:
+ *
+ * - study-curves.svg: loads, stiffness, half-width and peak pressure over the key that varies
+ *   fastest, if that is a number of the scene; study-profiles.svg: pressures along the surface;
+ *   study-map.svg: the vertical load, or for a given load the deflection, over two such keys;
+ * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
+ *   or, if it is not known, its bound, over h, unknowns and seconds;
+ * - study.svg: contact steps on uniform meshes over the key that varies fastest, if that is a
+ *   number and the steps of the runs differ.
+ *
+ * @throws NotWritten
+ */
+void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written);
+
+} // namespace rollwave
