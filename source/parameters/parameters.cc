@@ -56,7 +56,7 @@ void declare_material(Keys& keys, MaterialOptions& material) {
   keys.add("Width", material.width, range,
            "Width of the cylinder along its axle: a length, from 1e-30 to 1e30. With 1, forces, "
            "energies and stiffness are per unit of length of the axle.",
-           {0, "w", Quantity::length});
+           {0, "", Quantity::length});
 }
 
 void declare_road(Keys& keys, RoadOptions& road) {
