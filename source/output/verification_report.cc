@@ -61,7 +61,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
       exact.half_width_accuracy);
   add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
   if (result.errors && result.errors->exact_distance)
-    add("distance c for the load", Quantity::length, result.road_distance,
+    add("distance c (exact: for the load)", Quantity::length, result.road_distance,
         *result.errors->exact_distance, 1e-10);
   out << "\nVerification against the semi-analytic solution";
   if (scene.load)

@@ -138,7 +138,7 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   const ResultQuantity& error = result_quantity(
       study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
   Panel panel{x_label, error.words, {}, true, true};
-  std::set<double> slopes;
+  std::set<double> orders;
   for (const Family& family : find_families(study)) {
     if (x == "mesh.h_max" && family.is_adaptive)
       continue;
@@ -147,13 +147,14 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
       if (study.value(run, x) && study.value(run, error.name))
         curve.points.emplace_back(*study.value(run, x), *study.value(run, error.name));
       if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
-        slopes.insert(order_factor * *order);
+        orders.insert(*order);
     }
     std::sort(curve.points.begin(), curve.points.end());
     if (!curve.points.empty())
       panel.curves.push_back(std::move(curve));
   }
-  panel.slopes.assign(slopes.begin(), slopes.end());
+  for (const double order : orders)
+    panel.slopes.push_back(order_factor * order);
   return panel;
 }
 

@@ -109,7 +109,7 @@ void print_study_notes(std::ostream& out, const Study& study) {
   out << "\nsteps: of the contact iteration on the last mesh, for a given load at its last "
          "distance.\n"
          "seconds: without start-up, exact solutions, and work reused from the run before (column\n"
-         "shared of study.csv).\n";
+         "shared of study.csv); with the writing of the files of each run, if any.\n";
   if (study.has("error.certified_relative"))
     out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))
