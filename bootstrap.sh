@@ -8,7 +8,7 @@ usage() {
   cat <<'TEXT'
 Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 of the paper)
        ./bootstrap.sh test [OPTIONS of ctest]
-       ./bootstrap.sh test --long                            (300 random scenes of each kind)
+       ./bootstrap.sh test --long                            (only random scenes and forces, 300 each)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
        ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)

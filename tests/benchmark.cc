@@ -49,8 +49,8 @@ double plain_seconds(int n, const LowerTriplets& triplets) {
 
 /// Everything from ordering and triplets to the displacement field, without assembly.
 double contact_seconds(const Scene& scene, const Parameters& parameters) {
-  const MeshAndSpace ring(
-      scene, parameters); // made anew, so that the time includes the order of elimination
+  // Made anew, so that the time includes the order of elimination.
+  const MeshAndSpace ring(scene, parameters);
   RunStatistics statistics;
   DirectSolver solver(ring.boundary);
   solver.set_problem(scene, ring.boundary, {}, statistics);

@@ -76,7 +76,7 @@ TEST(Load, IsRefusedWithTheLargestIfNoDistanceGivesIt) {
     FAIL();
   } catch (const BadValue& refused) {
     EXPECT_EQ(refused.key, "Load");
-    EXPECT_NE(refused.reason.find(" 0.5"), std::string::npos) << refused.reason;
+    EXPECT_NE(refused.reason.find(" 0.5,"), std::string::npos) << refused.reason;
   }
 }
 

@@ -7,8 +7,8 @@ namespace rollwave {
 
 struct ManufacturedScene {
   Scene scene;
-  ExactSolution
-      exact; ///< other loads than F, peak pressure and accuracies are not computed and are 0
+  /// Loads other than F, peak pressure and accuracies are not computed and are 0.
+  ExactSolution exact;
 };
 
 /**

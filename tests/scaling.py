@@ -4,8 +4,8 @@ Usage: scaling.py ROLLWAVE FILE.prm [RANKS]    (from 1 to RANKS by doubling; def
 
 Each rank has one core and no threads, also a single one. Cases run in turn, five times; the fastest run
 counts. Runs "apart" do not communicate: if they are slower than one run alone, the cores share a
-resource such as memory bandwidth. Seconds are those of summary.json. "of the solve" counts the phases
-space, assembly, preconditioner and contact.
+resource such as memory bandwidth. Seconds are those of summary.json. "of the solve" is the speed-up of the
+phases space, assembly, preconditioner and contact together.
 """
 
 import json

@@ -19,8 +19,7 @@ bool is_in_zone(const SurfaceEdge& edge, const Scene& scene) {
   return scene.is_in_zone(edge.begin) && scene.is_in_zone(edge.end);
 }
 
-/// Nodal force over the node's share of the edges that lie in the zone, for all surface
-/// nodes.
+/// For all surface nodes: nodal force over the node's share of the edges that lie in the zone.
 std::vector<double> nodal_pressures(const ContactBoundary& boundary, const Scene& scene,
                                     const ContactSolution& contact) {
   const RingSpace& space = boundary.space();

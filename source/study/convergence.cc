@@ -145,7 +145,9 @@ void report_orders(std::ostream& out, const Study& study) {
     if (meshes.size() < 2 || !has_errors)
       continue;
     has_orders = true;
-    out << "\nOrders in h ~ unknowns^(-1/2)" << (family.name.empty() ? "" : ", ") << family.name
+    out << "\nOrders in "
+        << (family.is_adaptive ? "unknowns^(-1/2), adaptive meshes" : "h ~ unknowns^(-1/2)")
+        << (family.name.empty() ? "" : ", ") << family.name
         << (meshes.size() < family.runs.size()
                 ? ", only meshes whose unknowns differ by a factor of 1.5 or more"
                 : "")
@@ -155,10 +157,10 @@ void report_orders(std::ostream& out, const Study& study) {
       print_fits(out, study, meshes);
   }
   if (has_orders && study.has("error.exact_relative"))
-    out << "certified and error are relative. The other errors are absolute, that of the pressure\n"
-           "in the discrete L2 norm. Single orders scatter with the position of the ends of "
-           "contact\n"
-           "in their cells.\n";
+    out << (study.has("error.certified_relative") ? "certified and error are" : "error is")
+        << " relative. The other errors are absolute, that of the pressure in the\n"
+           "discrete L2 norm. Single orders scatter with the position of the ends of contact in\n"
+           "their cells.\n";
 }
 
 } // namespace rollwave

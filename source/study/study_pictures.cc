@@ -102,14 +102,17 @@ std::string label_of(const Study& study, const ResultQuantity& quantity) {
          study.units().in_brackets(quantity.quantity);
 }
 
-/// The result of a scene: the vertical load, or the deflection if a load is given.
+/// The result of a scene: the deflection if all runs give a load, otherwise the vertical load.
 const ResultQuantity& main_result(const Study& study) {
-  const bool has_load = study.plans.front().parameters.road.load.has_value();
+  const bool has_load =
+      std::all_of(study.plans.begin(), study.plans.end(),
+                  [](const RunPlan& plan) { return plan.parameters.road.load.has_value(); });
   return result_quantity(has_load ? "scene.deflection" : "contact.vertical_load");
 }
 
-/// A panel for each quantity that is drawn over the last part of Study/Vary. If distance or load
-/// varies, the first panel is the vertical load over the deflection.
+/// A panel for each quantity that is drawn over the key that varies fastest. If this key is the
+/// distance or the load, the first panel is the vertical load over the deflection; otherwise it is
+/// the main_result() over this key.
 std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x) {
   const std::string& key = fastest_key(study, study.plans.front()).key;
   const ResultQuantity& deflection = result_quantity("scene.deflection");

@@ -108,8 +108,9 @@ void print_study_notes(std::ostream& out, const Study& study) {
     }
   out << "\nsteps: of the contact iteration on the last mesh, for a given load at its last "
          "distance.\n"
-         "seconds: without start-up, exact solutions, and work reused from the run before (column\n"
-         "shared of study.csv); with the writing of the files of each run, if any.\n";
+         "seconds: with the certificate and the files of each run, if any; without start-up, "
+         "exact\n"
+         "solutions, and work reused from the run before (column shared of study.csv).\n";
   if (study.has("error.certified_relative"))
     out << "certified: guaranteed bound of the relative error in the energy norm.\n";
   if (study.has("error.exact_relative"))

@@ -20,7 +20,8 @@ enum class ContactMethod {
 };
 
 enum class UzawaStop {
-  /// "gap": ||p_new - p|| / rho, the violation of the contact conditions as a displacement.
+  /// "gap": ||change of the pressure|| / rho, the violation of the contact conditions as a
+  /// displacement.
   gap,
   /// "change": ||u_new - u||, the rule behind the paper's figure 9.
   change

@@ -8,15 +8,17 @@
 
 namespace rollwave {
 
-/// The numbers of the key that varies fastest in all runs, without entries if its values are not
-/// numbers.
+/// For each run the value of the key that varies fastest. Empty if no key varies or a value is not
+/// a number.
 std::vector<double> fastest_numbers(const Study& study);
 
 /**
  * Draws the pictures that a study has data for, each with its gnuplot script:
  *
- * - study-curves.svg: loads, stiffness, half-width and peak pressure over the key that varies
- *   fastest, if that is a number of the scene; study-profiles.svg: pressures along the surface;
+ * - study-curves.svg: the vertical load over the deflection if distance or load varies fastest,
+ *   otherwise the vertical load or, for a given load, the deflection over the key of the scene that
+ *   varies fastest; then force, stiffness, peak pressure, half-width and contact length over that
+ *   key. study-profiles.svg: pressures along the surface.
  *   study-map.svg: the vertical load, or for a given load the deflection, over two such keys;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   or, if it is not known, its bound, over h, unknowns and seconds;
