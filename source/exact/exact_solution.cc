@@ -113,8 +113,8 @@ struct Limit {
   double relative_accuracy() const { return std::max(std::abs(correction / value), 3e-11); }
 };
 
-/// The solution from series of 12, 24 and 48 terms with @p end_exponent. Its numbers are the limits
-/// of the three.
+/// The solution with @p end_exponent. Its numbers are the limits of those of three series, with 12,
+/// 24 and 48 terms.
 ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
                               double end_exponent) {
   const double crossing = crossing_angle(scene);

@@ -86,7 +86,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
   script << (panel.has_log_x ? "\nset logscale x\nset offsets 0, 0, 0, 0\n"
                              : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
                                "set autoscale xfix\n")
-         << (has_few_integers(panel) ? "set xtics 1\n" : "set xtics autofreq\n")
+         << (!panel.has_log_x && has_few_integers(panel) ? "set xtics 1\n" : "set xtics autofreq\n")
          << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\n";
   if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
     script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";

@@ -23,8 +23,7 @@ Bounds bound_load(const RunOptions& options, Discretisation& mesh, const MeshSol
 
 /// Guaranteed bounds of the distance at which the work-conjugate load is G, by the same energies.
 /// If (E(c) - E(c + d))/d <= G is certified, this distance is at most c + d. If
-/// G <= (E(c - d) - E(c))/d is certified, it is at least c - d. nullopt if no d up to a hundredth
-/// of c is large enough.
+/// G <= (E(c - d) - E(c))/d is certified, it is at least c - d. nullopt if no d <= c/100 suffices.
 std::optional<Bounds> bound_distance(const RunOptions& options, Discretisation& mesh,
                                      const MeshSolution& solution, const CertifiedError& error,
                                      RunStatistics& statistics);

@@ -18,8 +18,9 @@ std::vector<double> fastest_numbers(const Study& study);
  * - study-curves.svg: the vertical load over the deflection if distance or load varies fastest,
  *   otherwise the vertical load or, for a given load, the deflection over the key of the scene that
  *   varies fastest; then force, stiffness, peak pressure, half-width and contact length over that
- *   key. study-profiles.svg: pressures along the surface.
- *   study-map.svg: the vertical load, or for a given load the deflection, over two such keys;
+ *   key;
+ * - study-profiles.svg: pressures along the surface;
+ * - study-map.svg: the vertical load, or for a given load the deflection, over two such keys;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   or, if it is not known, its bound, over h, unknowns and seconds;
  * - study.svg: contact steps on uniform meshes over the key that varies fastest, if that is a
