@@ -91,7 +91,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
     Study study;
     Scene scene; // the runs of a study have their own
     if (is_study)
-      study = plan_study(parameters, communicator);
+      study = plan_study(parameters);
     else
       scene = make_scene(parameters);
     const auto removed = prepare_directory(parameters, is_study, communicator);

@@ -2,7 +2,9 @@
 // matrix, in turn; the seconds of each phase and the peak memory on meshes from 1e3 to 1e6
 // unknowns. Tables in Markdown.
 #include "rollwave/base/memory.h"
-#include "rollwave/contact/active_set.h"
+#include "rollwave/run/solve_on_mesh.h"
+#include "rollwave/solver/assembly.h"
+#include "rollwave/solver/serial_factor.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/timer.h>
@@ -52,13 +54,8 @@ double contact_seconds(const Scene& scene, const Parameters& parameters) {
   // Made anew, so that the time includes the order of elimination.
   const MeshAndSpace ring(scene, parameters);
   RunStatistics statistics;
-  DirectSolver solver(ring.boundary);
-  solver.set_problem(scene, ring.boundary, {}, statistics);
-  {
-    const RunStatistics::Phase phase(statistics, "contact");
-    const auto contact = active_set(solver, make_contact_problem(ring.boundary, scene), 100);
-    solver.displacement_field(contact.state);
-  }
+  const System system = make_system(ring.space, scene, scene.zone(), statistics);
+  solve_on_mesh(system, nullptr, scene, parameters.contact, {}, statistics);
   return statistics.total_seconds() - statistics.seconds("assembly").value_or(0);
 }
 
@@ -71,10 +68,9 @@ void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& 
   const Parameters parameters = with(paper.parameters(), mesh);
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
-  SparseCholesky cholesky(ring.space);
-  cholesky.number_unknowns(ring.space.constraints());
-  const LowerTriplets triplets =
-      cholesky.assemble(ring.space.constraints(), stiffness_matrices(ring.space, scene));
+  SerialMatrix matrix(ring.space, ring.space.constraints(), {});
+  assemble_stiffness(ring.space, scene, matrix);
+  const LowerTriplets& triplets = matrix.entries();
   std::vector<double> plain, contact, ratio;
   for (int run = 0; run < 5; ++run) {
     plain.push_back(plain_seconds(ring.space.n_unknowns(), triplets));

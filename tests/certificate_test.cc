@@ -98,9 +98,11 @@ TEST(AdmissiblePressure, IsNowhereNegativeAndKeepsTheForce) {
                {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=2",
                 "Mesh/Angular cells=" + std::to_string(cells)});
       RunStatistics statistics;
-      Discretisation mesh(make_scene(parameters), parameters, MPI_COMM_SELF, statistics);
-      const MeshSolution solution = solve_on_mesh(make_scene(parameters), parameters,
-                                                  mesh.candidates, {}, mesh.cache, statistics);
+      const Scene scene = make_scene(parameters);
+      const Mesh mesh = make_mesh(scene, parameters, MPI_COMM_SELF, statistics);
+      const System system = make_system(*mesh.space, scene, scene.zone(), statistics);
+      const MeshSolution solution =
+          solve_on_mesh(system, nullptr, scene, parameters.contact, {}, statistics);
       const auto pressures =
           admissible_pressures(solution.boundary, solution.scene, solution.contact);
       const double round_off = 1e-14 * solution.resultants.peak_pressure;

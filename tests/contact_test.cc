@@ -2,6 +2,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/contact/uzawa.h"
+#include "rollwave/run/solve_on_mesh.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
@@ -17,44 +18,12 @@ using dealii::Vector;
 
 namespace {
 
-/// A contact problem on its own, without a ring: S u = g - N.
-class DenseSolver : public ContactLinearSolver {
-public:
-  DenseSolver(const FullMatrix<double>& stiffness, const Vector<double>& load)
-      : stiffness(stiffness), load(load) {}
-
-  void set_problem(const Scene&, const ContactBoundary&, const std::optional<FieldVector>&,
-                   RunStatistics&) override {}
-  double solve(const std::vector<bool>& pinned, ContactState& state, double) override {
-    const unsigned int n = load.size();
-    FullMatrix<double> matrix(n, n);
-    Vector<double> rhs(n), solution(n);
-    for (unsigned int i = 0; i < n; ++i) {
-      for (unsigned int j = 0; j < n; ++j)
-        matrix(i, j) = pinned[i] ? (i == j) : stiffness(i, j);
-      rhs(i) = pinned[i] ? state.displacement(i) : load(i) - state.force(i);
-    }
-    matrix.gauss_jordan();
-    matrix.vmult(solution, rhs);
-    state.displacement = solution;
-    stiffness.vmult(rhs, solution);
-    for (unsigned int i = 0; i < n; ++i)
-      if (pinned[i])
-        state.force(i) = load(i) - rhs(i);
-    return 0;
-  }
-
-  Vector<double> apply_compliance(const Vector<double>&, double) override { return {}; }
-  ContactState derivative(const std::vector<bool>&, const Vector<double>&, double) override {
-    return {};
-  }
-  FieldVector displacement_field(const ContactState&) override { return {}; }
-  FieldVector apply(const FieldVector&) const override { return {}; }
-
-private:
-  FullMatrix<double> stiffness;
-  Vector<double> load;
-};
+/// The lower triangular L with L L^T = S.
+FullMatrix<double> cholesky_factor(const FullMatrix<double>& schur) {
+  FullMatrix<double> factor(schur.m(), schur.m());
+  factor.cholesky(schur);
+  return factor;
+}
 
 TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
   // From the empty set the plain method visits {}, {0, 1}, {0, 2}, {}, ... for ever.
@@ -65,38 +34,41 @@ TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
   load(0) = 4;
   load(1) = -4;
   load(2) = 1;
-  DenseSolver solver(stiffness, load);
+  const CondensedSystem system(cholesky_factor(stiffness));
+  const ContactEquations equations(system, load, 0, 3);
+  RunStatistics statistics;
   ContactProblem problem;
   problem.phi.reinit(3);
   problem.weight.reinit(3);
   problem.weight = 1;
 
-  const ContactSolution solution = active_set(solver, problem, 50);
+  const ContactSolution solution = active_set(equations, problem, 50, {}, statistics);
   EXPECT_FALSE(solution.remark.empty());
   for (unsigned int i = 0; i < 3; ++i) {
     EXPECT_LE(solution.state.displacement(i), 1e-14);
     EXPECT_GE(solution.state.force(i), -1e-13);
     EXPECT_NEAR(solution.state.force(i) * solution.state.displacement(i), 0, 1e-13);
   }
-  EXPECT_THROW(active_set(solver, problem, 2), NotSolved);
+  EXPECT_THROW(active_set(equations, problem, 2, {}, statistics), NotSolved);
 }
 
-/// Mesh, solver and contact problem of a scene.
+/// Mesh, equations and contact problem of a scene.
 struct Prepared {
   explicit Prepared(const Parameters& parameters) : Prepared(make_scene(parameters), parameters) {}
 
   Prepared(const Scene& given, const Parameters& parameters)
       : scene(given), ring(scene, parameters),
-        load(scene.force ? std::optional(assemble_load(ring.space, scene)) : std::nullopt),
-        solver(ring.boundary), problem(make_contact_problem(ring.boundary, scene)) {
-    solver.set_problem(scene, ring.boundary, load, statistics);
-  }
+        system(make_system(ring.space, scene, scene.zone(), statistics)),
+        load(make_load(system, scene, statistics)),
+        equations(contact_equations(system, load.get(), ring.boundary)),
+        problem(make_contact_problem(ring.boundary, scene)) {}
 
   Scene scene;
   MeshAndSpace ring;
-  std::optional<FieldVector> load;
   RunStatistics statistics;
-  DirectSolver solver;
+  System system;
+  std::unique_ptr<const Load> load;
+  ContactEquations equations;
   ContactProblem problem;
 };
 
@@ -106,7 +78,7 @@ TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
       full_circle(0.5, 1, 0.5, -0.1),
       parameters_of({"Mesh/Degree=2", "Mesh/Radial cells=16", "Mesh/Angular cells=12"}));
   const std::vector<bool> all(circle.problem.size(), true);
-  EXPECT_NEAR(largest_compliance(circle.solver, circle.problem, all), std::log(2), 1e-6);
+  EXPECT_NEAR(largest_compliance(circle.equations, circle.problem, all), std::log(2), 1e-6);
 }
 
 TEST(Uzawa, AgreesWithTheActiveSetToItsTolerance) {
@@ -114,11 +86,13 @@ TEST(Uzawa, AgreesWithTheActiveSetToItsTolerance) {
     for (const char* degree : {"Mesh/Degree=1", "Mesh/Degree=2"}) {
       Prepared scene(
           with(paper.parameters(), {degree, "Mesh/Radial cells=6", "Mesh/Angular cells=90"}));
-      const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
+      const ContactSolution exact =
+          active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
       for (const double tolerance : {1e-4, 1e-8, 1e-11}) {
         const ContactSolution solution =
-            uzawa(scene.solver, scene.problem,
-                  {ContactMethod::uzawa, std::nullopt, UzawaStop::gap, tolerance, 100000});
+            uzawa(scene.equations, scene.problem,
+                  {ContactMethod::uzawa, std::nullopt, UzawaStop::gap, tolerance, 100000}, {},
+                  scene.statistics);
         Vector<double> difference = solution.state.displacement;
         difference -= exact.state.displacement;
         EXPECT_LE(difference.l2_norm(), tolerance * exact.state.displacement.l2_norm())
@@ -151,14 +125,17 @@ TEST(Uzawa, RefinesTheCellsThatTheActiveSetRefines) {
 TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
   Prepared scene(with(paper_scenes()[1].parameters(),
                       {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=90"}));
-  const ContactSolution exact = active_set(scene.solver, scene.problem, 50);
-  const double largest = 2 / largest_compliance(scene.solver, scene.problem, exact.active);
-  EXPECT_NO_THROW(uzawa(scene.solver, scene.problem,
-                        {ContactMethod::uzawa, 0.97 * largest, UzawaStop::gap, 1e-6, 100000}));
+  const ContactSolution exact =
+      active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
+  const double largest = 2 / largest_compliance(scene.equations, scene.problem, exact.active);
+  EXPECT_NO_THROW(uzawa(scene.equations, scene.problem,
+                        {ContactMethod::uzawa, 0.97 * largest, UzawaStop::gap, 1e-6, 100000}, {},
+                        scene.statistics));
   for (const double factor : {1.03, 1.5, 10.})
     try {
-      uzawa(scene.solver, scene.problem,
-            {ContactMethod::uzawa, factor * largest, UzawaStop::gap, 1e-6, 100000});
+      uzawa(scene.equations, scene.problem,
+            {ContactMethod::uzawa, factor * largest, UzawaStop::gap, 1e-6, 100000}, {},
+            scene.statistics);
       FAIL() << "rho is " << factor << " times the largest that can converge";
     } catch (const NotSolved& failure) {
       std::ostringstream number;
@@ -171,9 +148,10 @@ TEST(Uzawa, GivesUpAfterItsSteps) {
   Prepared scene(with(paper_scenes()[0].parameters(), {"Mesh/Angular cells=40"}));
   // The last is so small that squares of its steps vanish.
   for (const double rho : {0.01, 1e-300})
-    EXPECT_THROW(
-        uzawa(scene.solver, scene.problem, {ContactMethod::uzawa, rho, UzawaStop::gap, 1e-10, 30}),
-        NotSolved);
+    EXPECT_THROW(uzawa(scene.equations, scene.problem,
+                       {ContactMethod::uzawa, rho, UzawaStop::gap, 1e-10, 30}, {},
+                       scene.statistics),
+                 NotSolved);
 }
 
 TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {
@@ -188,8 +166,9 @@ TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {
                         {"Mesh/Degree=1", "Mesh/Radial cells=4", "Mesh/Angular cells=180"}));
     std::vector<unsigned int> counts;
     for (unsigned int i = 0; i < rhos.size() && (i == 2 || published[figure][i] > 0); ++i) {
-      counts.push_back(uzawa(scene.solver, scene.problem,
-                             {ContactMethod::uzawa, rhos[i], UzawaStop::change, 2.5e-4, 1000})
+      counts.push_back(uzawa(scene.equations, scene.problem,
+                             {ContactMethod::uzawa, rhos[i], UzawaStop::change, 2.5e-4, 1000}, {},
+                             scene.statistics)
                            .history.size());
       if (published[figure][i] > 0) {
         EXPECT_NEAR(counts.back(), published[figure][i], 5) << "rho = " << rhos[i];

@@ -20,7 +20,7 @@ struct OnMesh {
       : parameters(parameters_of(
             {"Cylinder/Radial force=" + force, "Mesh/Degree=" + std::to_string(degree),
              "Mesh/Radial cells=" + radial_cells, "Mesh/Angular cells=" + angular_cells})),
-        scene(make_scene(parameters)), mesh(scene, parameters), shapes(scene, degree),
+        scene(make_scene(parameters)), mesh(scene, parameters), shapes(mesh.space, scene),
         integral(mesh.space, scene, shapes) {}
 
   /// (int (Q - Q_h)^2 / r dr dz)^(1/2) by rules with more points.
@@ -47,7 +47,7 @@ struct OnMesh {
   const Parameters parameters;
   const Scene scene;
   const MeshAndSpace mesh;
-  RadialShapesOfMesh shapes;
+  const RadialShapesOfMesh shapes;
   const ForceIntegral integral;
 };
 

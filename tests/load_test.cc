@@ -59,9 +59,9 @@ TEST(Load, TakesNoFurtherFactorisation) {
 
 TEST(Load, IsMetOnEveryMeshAndByEveryMethod) {
   for (const std::string setting :
-       {"Mesh/Wanted relative error=1e-2", "Contact/Method=uzawa", "Solver/Kind=iterative",
-        "Cylinder/Inner radius=0.99", "Road/Load=1e-5", "Road/Curvature=1",
-        "Cylinder/Radial force=cos(3*z)", "Road/Contact zone=4.5, 5"}) {
+       {"Mesh/Wanted relative error=1e-2", "Contact/Method=uzawa", "Cylinder/Inner radius=0.99",
+        "Road/Load=1e-5", "Road/Curvature=1", "Cylinder/Radial force=cos(3*z)",
+        "Road/Contact zone=4.5, 5"}) {
     const Solution solution =
         solve_for({"Road/Load=0.02", "Mesh/Radial cells=3", "Mesh/Angular cells=60", setting});
     const double load = solution.scene.load->value;

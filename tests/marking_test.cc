@@ -20,7 +20,7 @@ namespace {
 struct Ring {
   explicit Ring(const std::vector<std::string>& settings)
       : parameters(parameters_of(settings)), scene(make_scene(parameters)),
-        mesh(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)) {}
+        mesh(make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF)) {}
 
   /// How many cells are cut in a refinement by bulk marking.
   unsigned int cut(const std::vector<double>& indicators, double fraction,
@@ -93,7 +93,7 @@ TEST(Marking, TakesWholeColumnsOfRingsThinnerThanACellIsLong) {
 TEST(Marking, EndsAtTheFinestLevel) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
   const Scene scene = make_scene(parameters);
-  const auto mesh = make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF);
+  const auto mesh = make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF);
   bool is_cut = true;
   for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
     std::vector<double> indicators;

@@ -23,7 +23,7 @@ std::string refusal_of(const std::vector<std::string>& assignments) {
   try {
     parameters = parameters_of(assignments);
     make_scene(parameters);
-    plan_runs(parameters, 1);
+    plan_runs(parameters);
   } catch (const BadValue& value) {
     return refusal(parameters.settings, value);
   } catch (const BadInput& error) {
@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
         "Mesh/Degree=1.5", "Mesh/Radial cells=0", "Mesh/Angular cells=2", "Mesh/Angular cells=-5",
         "Mesh/Angular cells=1e30", "Mesh/Global refinements=-1", "Contact/Method=newton",
         "Contact/Rho=0", "Contact/Rho=-1", "Contact/Rho=inf", "Contact/Tolerance=0",
-        "Contact/Tolerance=1", "Contact/Most steps=0", "Solver/Kind=magic",
+        "Contact/Tolerance=1", "Contact/Most steps=0", "Solver/Kind=direct",
         "Study/Vary=Mesh/Degree", "Study/Vary=Study/Vary = 1", "Study/Published steps=1.5",
         "Output/Directory=", "Cylinder/Radial force=1,5", "Cylinder/Radial force=3;",
         "Cylinder/Radial force=1,0e3", "Cylinder/Radial force=r = 2",
@@ -176,24 +176,24 @@ TEST(Parameters, LaterOfDistanceAndLoadReplacesTheOther) {
   // A study of distances may begin with a file of a load.
   Parameters study = parameters_of({"Road/Load=0.2"});
   study.study = parameters_of({"Study/Vary=Road/Distance = 0.7 | 0.8"}).study;
-  for (const RunPlan& plan : plan_runs(study, 1))
+  for (const RunPlan& plan : plan_runs(study))
     EXPECT_EQ(plan.parameters.road.load, std::nullopt);
 }
 
 // Rows that only differ in what the active set does not use would be equal.
 TEST(Parameters, KeysOfUzawaAreVariedForThatMethodOnly) {
   try {
-    plan_runs(parameters_of({"Study/Vary=Contact/Rho = 1 | 2"}), 1);
+    plan_runs(parameters_of({"Study/Vary=Contact/Rho = 1 | 2"}));
     ADD_FAILURE();
   } catch (const BadValue& value) {
     EXPECT_EQ(value.section + '/' + value.key, "Study/Vary");
   }
   for (const char* vary : {"Contact/Tolerance = 1e-3 | 1e-4; Contact/Method = active set | uzawa",
                            "Contact/Method = active set | uzawa"})
-    EXPECT_EQ(plan_runs(parameters_of({std::string("Study/Vary=") + vary}), 1).size() % 2, 0u);
-  EXPECT_EQ(plan_runs(parameters_of({"Contact/Method=uzawa", "Study/Vary=Contact/Rho = 1 | 2"}), 1)
-                .size(),
-            2u);
+    EXPECT_EQ(plan_runs(parameters_of({std::string("Study/Vary=") + vary})).size() % 2, 0u);
+  EXPECT_EQ(
+      plan_runs(parameters_of({"Contact/Method=uzawa", "Study/Vary=Contact/Rho = 1 | 2"})).size(),
+      2u);
 }
 
 TEST(Parameters, VaryOverListsAndRanges) {
@@ -277,7 +277,7 @@ TEST(Parameters, SayHowManyUnknownsWereTooMany) {
                        "Mesh/Radial cells=2147483647", "Mesh/Angular cells=2147483647"});
   EXPECT_NE(largest.find(" 3.25e+32 unknowns"), std::string::npos) << largest;
   const std::string allowed =
-      refusal_of_mesh({"Mesh/Degree=1", "Mesh/Radial cells=1", "Mesh/Angular cells=2147483647",
+      refusal_of_mesh({"Mesh/Degree=1", "Mesh/Radial cells=1000000", "Mesh/Angular cells=2000",
                        "Mesh/Most unknowns=2147483647", "Road/Contact zone=4, 5"});
   EXPECT_NE(allowed.find("MiB of memory"), std::string::npos) << allowed;
 }
@@ -350,11 +350,10 @@ TEST(Simulation, HasNoResultThatIsNotFinite) {
   for (const std::vector<std::string>& settings : std::vector<std::vector<std::string>>{
            {"Cylinder/Radial force=1e160"},
            {"Cylinder/Radial force=-1e300*r"},
-           {"Cylinder/Inner radius=0.9999999999999996", "Road/Distance=0.9999999999999998"}})
-    for (const char* kind : {"Solver/Kind=direct", "Solver/Kind=iterative"}) {
-      const Parameters parameters = with(parameters_of({kind, "Contact/Most steps=30"}), settings);
-      EXPECT_THROW(simulate(make_scene(parameters), parameters), NotSolved) << settings[0];
-    }
+           {"Cylinder/Inner radius=0.9999999999999996", "Road/Distance=0.9999999999999998"}}) {
+    const Parameters parameters = with(parameters_of({"Contact/Most steps=30"}), settings);
+    EXPECT_THROW(simulate(make_scene(parameters), parameters), NotSolved) << settings[0];
+  }
 }
 
 TEST(Parameters, RefuseAnAutomaticZoneBetweenTwoNodes) {

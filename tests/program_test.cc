@@ -166,14 +166,6 @@ TEST_F(Program, OverridesTheFile) {
   EXPECT_EQ(json["scene"]["road_distance"], 0.9);
 }
 
-TEST_F(Program, SolvesIterativelyWhenAskedTo) {
-  const Outcome outcome = shell("$rollwave " + scene + " --set 'Solver/Kind=iterative'");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
-  const auto json = nlohmann::json::parse(read("summary.json"));
-  EXPECT_GT(json["iterations"]["linear"], 0);
-  EXPECT_TRUE(json["seconds"].contains("preconditioner"));
-}
-
 TEST_F(Program, PrintsHelpVersionAndParameters) {
   const Outcome help = shell("$rollwave --help");
   EXPECT_EQ(help.exit_code, 0);

@@ -56,11 +56,6 @@ TEST(Quantities, AreThoseOfEveryMethod) {
     const Parameters parameters =
         with(parameters_of({"Mesh/Radial cells=3", "Mesh/Angular cells=60"}), settings);
     const nlohmann::json expected = summary_of(parameters);
-    {
-      SCOPED_TRACE(name + ", iterative");
-      expect_same_quantities(summary_of(with(parameters, {"Solver/Kind=iterative"})), expected,
-                             tolerance_of_solvers);
-    }
     SCOPED_TRACE(name + ", Uzawa");
     expect_same_quantities(summary_of(with(parameters, {"Contact/Method=uzawa"})), expected,
                            tolerance_of_uzawa);

@@ -110,17 +110,13 @@ bool compare_with_exact(const Scene& scene, const Parameters& parameters, const 
 /// Roads farther away leave less contact on the same mesh: with d between them, J is convex in the
 /// distance, its slope -G grows.
 void compare_with_farther_roads(Draw& draw, const Scene& scene, const Parameters& parameters,
-                                Solution nearest) {
+                                const Result& nearest) {
   const double c = parameters.road.distance / scene.units.length;
   // Not less than what distances resolve.
   const double step = std::max(draw.power_of_ten(-3, -1) * std::abs(scene.outer_radius - c), 1e-12);
-  std::vector<Result> results = {nearest.result};
-  Solution solution = std::move(nearest);
-  for (const int i : {1, 2}) {
-    const Scene farther = with_distance(scene, c + i * step);
-    solution = simulate(std::move(solution.mesh), farther, parameters);
-    results.push_back(solution.result);
-  }
+  std::vector<Result> results = {nearest};
+  for (const int i : {1, 2})
+    results.push_back(simulate(with_distance(scene, c + i * step), parameters).result);
   const double energy = results[0].energy.norm_squared + std::abs(results[0].energy.value);
   EXPECT_GE(results[0].energy.value - 2 * results[1].energy.value + results[2].energy.value,
             -1e-10 * energy);
@@ -145,11 +141,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
     try {
       const Parameters parameters = parameters_of(settings);
       const Scene scene = make_scene(parameters);
-      RunStatistics statistics;
-      Solution solution =
-          simulate(Discretisation(scene, parameters, MPI_COMM_SELF, statistics, scene.zone()),
-                   scene, parameters);
-      const Result& result = solution.result;
+      const Result result = simulate(scene, parameters).result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;
         EXPECT_GT(result.residuals.largest(), wanted_residual);
@@ -161,7 +153,7 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
       EXPECT_LE(result.certified->lower_bound, result.certified->upper_bound);
       if (i % 12 == 0)
         counts.compared += compare_with_exact(scene, parameters, result);
-      compare_with_farther_roads(draw, scene, parameters, std::move(solution));
+      compare_with_farther_roads(draw, scene, parameters, result);
     } catch (const BadInput& refusal) {
       ++counts.bad_input;
       EXPECT_GT(std::string(refusal.what()).size(), 20u);
@@ -230,8 +222,6 @@ TEST(RandomScenes, AreFoundAgainByTheirLoads) {
   for (unsigned int i = 0; i < n_scenes; ++i) {
     std::vector<std::string> settings = draw_scene(draw);
     settings.push_back("Certificate/Error bound=false");
-    if (draw.count(0, 3) == 0)
-      settings.push_back("Solver/Kind=iterative");
     const auto kind =
         draw.one_of<LoadKind>({LoadKind::vertical, LoadKind::total, LoadKind::work_conjugate});
     SCOPED_TRACE("scene " + std::to_string(i) + text_of(settings));

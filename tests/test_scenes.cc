@@ -6,8 +6,6 @@
 
 #include <deal.II/base/numbers.h>
 
-#include <random>
-
 namespace rollwave {
 
 std::string assignment(const std::string& key, double value) {
@@ -42,23 +40,12 @@ const std::vector<PaperScene>& paper_scenes() {
 }
 
 MeshAndSpace::MeshAndSpace(const Scene& scene, const Parameters& parameters)
-    : triangulation(make_ring_mesh(scene, parameters.mesh, false, MPI_COMM_SELF)),
+    : triangulation(make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree), boundary(space, scene.zone()) {}
 
 FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
-  RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
+  const RadialShapesOfMesh shapes(space, scene);
   return assemble_load(space, ForceIntegral(space, scene, shapes), shapes);
-}
-
-FieldVector random_load(const RingSpace& space,
-                        const dealii::AffineConstraints<double>& constraints) {
-  FieldVector load = space.make_field();
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> value(-1, 1);
-  for (double& entry : load)
-    entry = value(random);
-  constraints.set_zero(load);
-  return load;
 }
 
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road) {

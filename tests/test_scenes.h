@@ -4,7 +4,6 @@
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
-#include "rollwave/solver/direct_solver.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -50,11 +49,6 @@ struct MeshAndSpace {
 
 /// The load of a scene's force.
 FieldVector assemble_load(const RingSpace& space, const Scene& scene);
-
-/// A right-hand side between -1 and 1 at random, the same in each run, zero where @p constraints
-/// hold: no angular mode is missing from it.
-FieldVector random_load(const RingSpace& space,
-                        const dealii::AffineConstraints<double>& constraints);
 
 /// A scene that touches a constant obstacle phi around the whole circle.
 Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road);

@@ -2,20 +2,9 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <cstdlib>
-
 namespace rollwave {
 
 using namespace dealii;
-
-MpiSession::MpiSession() {
-  // deal.II's MPI_InitFinalize would have to end within main(): it empties memory pools that are
-  // gone when the program ends.
-  if (!Utilities::MPI::job_supports_mpi()) {
-    MPI_Init(nullptr, nullptr);
-    std::atexit([] { MPI_Finalize(); });
-  }
-}
 
 unsigned int count_processes(MPI_Comm communicator) {
   return Utilities::MPI::job_supports_mpi() ? Utilities::MPI::n_mpi_processes(communicator) : 1;

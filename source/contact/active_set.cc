@@ -15,20 +15,13 @@ namespace {
 /// zero.
 constexpr double round_off = 1e-14;
 
-/// Errors of displacement and pressure over the residual of the equations. The pressure, a residual
-/// over a weight, is less accurate on small cells.
-constexpr double displacement_error = 1, pressure_error = 10;
-
-/// Checks the contact conditions of a state whose equations hold up to @p residual, and proposes
-/// the @p next set.
+/// Checks the contact conditions of a state, and proposes the @p next set.
 ContactStep check_conditions(const ContactProblem& problem, const ContactSolution& solution,
-                             double residual, std::vector<bool>& next) {
+                             std::vector<bool>& next) {
   const auto& [displacement, force] = solution.state;
   const Vector<double> gap = problem.gaps(displacement), pressure = problem.pressures(force);
-  const double least_pressure =
-      -std::max(round_off, pressure_error * residual) * pressure.linfty_norm();
-  const double least_gap =
-      -std::max(round_off, displacement_error * residual) * displacement.linfty_norm();
+  const double least_pressure = -round_off * pressure.linfty_norm(),
+               least_gap = -round_off * displacement.linfty_norm();
 
   ContactStep step = {};
   next = solution.active;
@@ -63,9 +56,9 @@ void pin(const ContactProblem& problem, ContactSolution& solution) {
 
 } // namespace
 
-ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,
+ContactSolution active_set(const ContactEquations& equations, const ContactProblem& problem,
                            unsigned int most_steps, const Vector<double>& start,
-                           const ContactObserver& step_ended) {
+                           RunStatistics& statistics, const ContactObserver& step_ended) {
   ContactSolution solution;
   solution.active.assign(problem.size(), false);
   for (unsigned int i = 0; i < start.size(); ++i)
@@ -74,24 +67,14 @@ ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& pr
   solution.state.force.reinit(problem.size());
   bool changes_one_by_one = false;
   std::set<std::vector<bool>> visited;
-  double accuracy = loose_accuracy;
   for (;;) {
     pin(problem, solution);
-    const double residual = solver.solve(solution.active, solution.state, accuracy);
+    equations.solve(solution.active, solution.state, statistics);
     std::vector<bool> next;
-    solution.history.push_back(check_conditions(problem, solution, residual, next));
+    solution.history.push_back(check_conditions(problem, solution, next));
     ContactStep& step = solution.history.back();
-    const bool is_last = step.changed == 0,
-               is_repeated =
-                   !is_last && !changes_one_by_one && !visited.insert(solution.active).second,
-               is_loose = accuracy > final_accuracy && residual > final_accuracy;
-    if (is_loose && (is_last || is_repeated)) {
-      // The signs of a loose solve have led here; those of an accurate one may lead on.
-      accuracy = final_accuracy;
-      visited.clear();
-      solution.history.pop_back();
-      continue;
-    }
+    const bool is_last = step.changed == 0, is_repeated = !is_last && !changes_one_by_one &&
+                                                          !visited.insert(solution.active).second;
     if (step_ended)
       step_ended(solution.history);
     if (is_last)

@@ -54,12 +54,12 @@ Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& forc
   return loads;
 }
 
-ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
+ContactSolution solve_contact(const ContactEquations& equations, const ContactProblem& problem,
                               const ContactOptions& options, const dealii::Vector<double>& start,
-                              const ContactObserver& step_ended) {
+                              RunStatistics& statistics, const ContactObserver& step_ended) {
   if (options.method == ContactMethod::uzawa)
-    return uzawa(solver, problem, options, start, step_ended);
-  return active_set(solver, problem, options.most_steps, start, step_ended);
+    return uzawa(equations, problem, options, start, statistics, step_ended);
+  return active_set(equations, problem, options.most_steps, start, statistics, step_ended);
 }
 
 } // namespace rollwave

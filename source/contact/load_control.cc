@@ -62,13 +62,13 @@ struct Bracket {
 
 /// The change of the contact state for each unit of length by which the road comes nearer while the
 /// same nodes stay in contact: they follow it, du_i = -dphi/dc.
-ContactState rate_of_approach(ContactLinearSolver& solver, const ContactProblem& problem,
-                              const ContactSolution& solution) {
+ContactState rate_of_approach(const ContactEquations& equations, const ContactProblem& problem,
+                              const ContactSolution& solution, RunStatistics& statistics) {
   Vector<double> displacement(problem.size());
   for (unsigned int i = 0; i < problem.size(); ++i)
     if (solution.active[i])
       displacement(i) = -problem.road.distance_derivative(problem.x[i]);
-  return solver.derivative(solution.active, displacement, final_accuracy);
+  return equations.derivative(solution.active, displacement, statistics);
 }
 
 /// How much nearer the road comes while contact grows by about @p n_cells cells at an end, the
@@ -97,10 +97,11 @@ double approach_of_growth(const ContactProblem& problem, const ContactSolution& 
 
 } // namespace
 
-Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boundary,
+Loads contact_stiffness(const ContactEquations& equations, const ContactBoundary& boundary,
                         const Scene& scene, const ContactProblem& problem,
-                        const ContactSolution& solution, unsigned int most_steps) {
-  const ContactState rate = rate_of_approach(solver, problem, solution);
+                        const ContactSolution& solution, unsigned int most_steps,
+                        RunStatistics& statistics) {
+  const ContactState rate = rate_of_approach(equations, problem, solution, statistics);
   const Loads fixed_set_stiffness =
       loads_of(problem, rate.force); // while the same nodes stay in contact
   if (!(fixed_set_stiffness.total > 0))
@@ -117,8 +118,8 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
     return fixed_set_stiffness;
   const auto loads_at = [&](double distance) {
     const ContactProblem moved = make_contact_problem(boundary, with_distance(scene, distance));
-    const ContactSolution contact =
-        active_set(solver, moved, most_steps, problem.pressures(solution.state.force));
+    const ContactSolution contact = active_set(equations, moved, most_steps,
+                                               problem.pressures(solution.state.force), statistics);
     return loads_of(moved, contact.state.force);
   };
   const Loads near = loads_at(c - step), far = loads_at(c + step);
@@ -126,9 +127,9 @@ Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boun
           (near.work_conjugate - far.work_conjugate) / (2 * step)};
 }
 
-RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& boundary,
-                           const Scene& scene, unsigned int most_steps,
-                           const Vector<double>& start) {
+RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
+                           const Scene& scene, unsigned int most_steps, const Vector<double>& start,
+                           RunStatistics& statistics) {
   constexpr double tolerance = 1e-10, tolerance_at_tangent = 1e-2;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
@@ -137,7 +138,8 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
   for (unsigned int trial = 0; trial < most_trials; ++trial) {
     const ContactProblem problem =
         make_contact_problem(boundary, with_distance(scene, road.distance));
-    const ContactSolution contact = active_set(solver, problem, most_steps, road.pressure);
+    const ContactSolution contact =
+        active_set(equations, problem, most_steps, road.pressure, statistics);
     road.pressure = problem.pressures(contact.state.force);
     road.load = loads_of(problem, contact.state.force).of(kind);
     road.history.push_back(
@@ -162,7 +164,7 @@ RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& b
     // The stiffness while the same nodes stay in contact. For the work-conjugate load it leaves
     // out the change of dphi/dc, which is 0 on a flat road.
     const double stiffness =
-        loads_of(problem, rate_of_approach(solver, problem, contact).force).of(kind);
+        loads_of(problem, rate_of_approach(equations, problem, contact, statistics).force).of(kind);
     road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
                                                : std::nullopt);
   }

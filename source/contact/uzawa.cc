@@ -14,15 +14,15 @@ using namespace dealii;
 
 namespace {
 
-[[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
+[[noreturn]] void give_up(const ContactEquations& equations, const ContactProblem& problem,
                           const ContactOptions& options, double rho, std::size_t steps,
-                          double smallest) {
+                          double smallest, RunStatistics& statistics) {
   // Below the first of these the method converges from any start; above the second it diverges even
   // from near the solution.
-  const ContactSolution exact = active_set(solver, problem, options.most_steps);
-  const double safe =
-                   2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
-               largest = 2 / largest_compliance(solver, problem, exact.active);
+  const ContactSolution exact = active_set(equations, problem, options.most_steps, {}, statistics);
+  const double safe = 2 / largest_compliance(equations, problem,
+                                             std::vector<bool>(problem.size(), true)),
+               largest = 2 / largest_compliance(equations, problem, exact.active);
   std::ostringstream message;
   message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
           << " with rho = " << rho / problem.unit << ": the smallest residual of " << steps
@@ -70,7 +70,7 @@ ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p
 
 } // namespace
 
-double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
+double largest_compliance(const ContactEquations& equations, const ContactProblem& problem,
                           const std::vector<bool>& nodes) {
   // The dominant mode is a push of one sign everywhere.
   Vector<double> pressure(problem.size());
@@ -80,8 +80,7 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
   double compliance = 0;
   for (unsigned int iteration = 0; iteration < 100; ++iteration) {
     const Vector<double> force = problem.forces(pressure);
-    // The quotient below errs by the square of this.
-    const Vector<double> response = solver.apply_compliance(force, 1e-6);
+    const Vector<double> response = equations.apply_compliance(force);
     double work = 0, norm_squared = 0, largest = 0;
     for (unsigned int i = 0; i < problem.size(); ++i) {
       work += force(i) * response(i);
@@ -98,14 +97,14 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
   return compliance;
 }
 
-ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
+ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& problem,
                       const ContactOptions& options, const Vector<double>& start,
-                      const ContactObserver& step_ended) {
+                      RunStatistics& statistics, const ContactObserver& step_ended) {
   const unsigned int n = problem.size();
   const std::vector<bool> none(n, false);
   const double rho = options.rho
                          ? *options.rho * problem.unit
-                         : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
+                         : 1.8 / largest_compliance(equations, problem, std::vector<bool>(n, true));
 
   ContactSolution solution;
   solution.rho = rho;
@@ -120,8 +119,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     for (unsigned int i = 0; i < n; ++i)
       solution.active[i] = start(i) > 0;
   }
-  double accuracy = loose_accuracy;
-  double residual = solver.solve(none, solution.state, accuracy);
+  equations.solve(none, solution.state, statistics);
 
   double smallest = std::numeric_limits<double>::max();
   unsigned int steps_without_progress = 0;
@@ -130,7 +128,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     ContactStep step = project(problem, rho, p, solution);
     const double violation = step.residual;
     if (violation > 0)
-      residual = solver.solve(none, solution.state, accuracy);
+      equations.solve(none, solution.state, statistics);
     change -= displacement;
 
     const double size = displacement.l2_norm();
@@ -142,19 +140,14 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     // A scene without contact is solved when the first projection leaves p at zero.
     if (measured <= options.tolerance * size) {
       solution.gap_accuracy = std::max(options.tolerance * size, measured);
-      if (residual > final_accuracy)
-        solver.solve(none, solution.state, final_accuracy);
       return solution;
     }
-    // The linear problems are solved 100 times more accurately than the residual of the step.
-    accuracy = std::min(step.residual / 100, loose_accuracy);
-
     // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
     if (step.residual < smallest) {
       smallest = step.residual;
       steps_without_progress = 0;
     } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
-      give_up(solver, problem, options, rho, solution.history.size(), smallest);
+      give_up(equations, problem, options, rho, solution.history.size(), smallest, statistics);
   }
   throw NotSolved(too_few_steps_text(options, rho / problem.unit, solution.history));
 }

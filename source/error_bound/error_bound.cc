@@ -2,8 +2,8 @@
 
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/error_bound/admissible_pressure.h"
+#include "rollwave/error_bound/dual_system.h"
 #include "rollwave/error_bound/force_integral.h"
-#include "rollwave/error_bound/stress_function.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
 
@@ -49,7 +49,7 @@ struct Integrals {
 class CellIntegrals {
 public:
   CellIntegrals(const RingSpace& space, const Scene& scene, const AdmissibleFields& fields,
-                RadialShapesOfMesh& shapes)
+                const RadialShapesOfMesh& shapes)
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
         rule(fields.force ? fields.force->rule() : QGauss<1>(n)), along_road(n + 5),
@@ -142,7 +142,7 @@ private:
   const RingSpace& space;
   const Scene& scene;
   const AdmissibleFields& fields;
-  RadialShapesOfMesh& shapes;
+  const RadialShapesOfMesh& shapes;
   const unsigned int n;
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const QGauss<1> rule, along_road;
@@ -160,7 +160,7 @@ private:
 /// The integrals over all cells, and the error bound of each own cell.
 std::pair<Integrals, std::vector<double>> integrate(const RingSpace& space, const Scene& scene,
                                                     const AdmissibleFields& fields,
-                                                    RadialShapesOfMesh& shapes) {
+                                                    const RadialShapesOfMesh& shapes) {
   CellIntegrals integrals(space, scene, fields, shapes);
   std::vector<double> cell_bounds(space.dof_handler().get_triangulation().n_active_cells());
   Integrals total;
@@ -211,16 +211,15 @@ CertifiedError bound_error(const Scene& scene, const Integrals& integrals,
 
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
-                    const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, RunStatistics& statistics) {
+                    const FieldVector& field, const ForceIntegral* force, const DualSystem& dual,
+                    RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "certificate");
   const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
-  const FieldVector potential = stress_function.solve(scene, pressures, force, statistics);
-  auto [integrals, cell_bounds] =
-      integrate(boundary.space(), scene, {displacement, trace, pressures, potential, force},
-                stress_function.shapes());
+  const FieldVector potential = dual.stress_function(scene, pressures, force, statistics);
+  auto [integrals, cell_bounds] = integrate(
+      boundary.space(), scene, {displacement, trace, pressures, potential, force}, dual.shapes());
   return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};
 }

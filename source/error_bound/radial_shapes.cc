@@ -67,17 +67,11 @@ void RadialShapes::integrate(const double* w, const std::vector<double>& weights
       integrals[i] += w[q] * weights[q] * (shapes[integrals.size() * q + i].*function);
 }
 
-RadialShapesOfMesh::RadialShapesOfMesh(const Scene& scene, unsigned int degree)
-    : scene(scene), lagrange(lobatto_lagrange(degree)) {}
+namespace {
 
-const RadialShapes& RadialShapesOfMesh::on(double begin, double end) {
-  const auto [place, is_new] = known.try_emplace({begin, end});
-  if (is_new)
-    place->second = make(begin, end);
-  return place->second;
-}
-
-RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
+RadialShapes make_shapes(const Scene& scene,
+                         const std::vector<Polynomials::Polynomial<double>>& lagrange, double begin,
+                         double end) {
   const QGauss<1> points(points_for_pole(begin, end, lagrange.size() - 1));
   const RadialRule rule = graded_rule(begin, end, points);
   RadialShapes shapes;
@@ -111,6 +105,20 @@ RadialShapes RadialShapesOfMesh::make(double begin, double end) const {
         shapes.products.mass(i, j) += one.potential * other.potential * shapes.weight_over_r[q];
       }
   return shapes;
+}
+
+} // namespace
+
+RadialShapesOfMesh::RadialShapesOfMesh(const RingSpace& space, const Scene& scene) {
+  const auto lagrange = lobatto_lagrange(space.dof_handler().get_fe().degree);
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    const double begin = cell->vertex(0)[0], end = cell->vertex(3)[0];
+    const auto [place, is_new] = of_interval.try_emplace({begin, end});
+    if (is_new)
+      place->second = make_shapes(scene, lagrange, begin, end);
+  }
 }
 
 } // namespace rollwave

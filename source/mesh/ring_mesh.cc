@@ -7,12 +7,10 @@
 
 #include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,14 +57,18 @@ std::vector<double> angles_of(const Scene& scene, int n) {
   return angles;
 }
 
-/// The radii of the vertices: at equal distances, unless cells next to the hub would be taller than
-/// its radius. Since u is much like ln(r/a) there, heights then grow with the radius first, r_i = a
-/// q^i, and are equal from where that would make them taller. q is 2 where the cells suffice, else
-/// half of the cells grow.
+/// True if n cells of equal height would be taller next to the hub than its radius.
+bool has_graded_radii(double inner_radius, double outer_radius, int n) {
+  return (outer_radius - inner_radius) / n > inner_radius && n >= 3;
+}
+
+/// The radii of the vertices: at equal distances, unless has_graded_radii(). Since u is much like
+/// ln(r/a) there, heights then grow with the radius first, r_i = a q^i, and are equal from where
+/// that would make them taller. q is 2 where the cells suffice, else half of the cells grow.
 std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
   const double a = inner_radius, b = outer_radius;
   std::vector<double> radii = {a};
-  if ((b - a) / n <= a || n < 3) {
+  if (!has_graded_radii(a, b, n)) {
     append_equal(radii, a, b, n);
     return radii;
   }
@@ -94,16 +96,6 @@ std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
   return radii;
 }
 
-/// Adds the middles between neighbours.
-void halve(std::vector<double>& places) {
-  std::vector<double> halved = {places.front()};
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    halved.push_back((places[i - 1] + places[i]) / 2);
-    halved.push_back(places[i]);
-  }
-  places = std::move(halved);
-}
-
 /// Makes z = pi/2 and z = 5 pi/2 one.
 void join_seam(Triangulation<2>& mesh) {
   std::vector<GridTools::PeriodicFacePair<Triangulation<2>::cell_iterator>> seam;
@@ -127,26 +119,6 @@ std::unique_ptr<Triangulation<2>> make_grid(const std::vector<double>& radii,
       },
       *grid);
   return grid;
-}
-
-/// The same on several processes. Each has as many columns along z, and sees the neighbouring ones.
-std::unique_ptr<Triangulation<2>> make_strips(const std::vector<double>& radii,
-                                              const std::vector<double>& angles,
-                                              MPI_Comm communicator) {
-  const auto share_out = [&](Triangulation<2>& grid, MPI_Comm, unsigned int /*group_size*/) {
-    join_seam(grid); // so that cells over it are seen
-    const std::uint64_t n_processes = count_processes(communicator);
-    for (const auto& cell : grid.active_cell_iterators()) {
-      const std::uint64_t column = cell->active_cell_index() / (radii.size() - 1);
-      cell->set_subdomain_id(column * n_processes / (angles.size() - 1));
-    }
-  };
-  auto mesh = std::make_unique<parallel::fullydistributed::Triangulation<2>>(communicator);
-  mesh->create_triangulation(
-      TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<2, 2>(
-          [&](Triangulation<2>& grid) { grid.copy_triangulation(*make_grid(radii, angles)); },
-          share_out, communicator, count_processes(communicator), smoothing));
-  return mesh;
 }
 
 /// All digits where they are exact.
@@ -176,34 +148,63 @@ void check_mesh_size(const MeshOptions& mesh) {
                      "; allow more, or ask for fewer cells, refinements or a lower degree");
 }
 
+namespace {
+
+/// Cells of the coarse mesh, and how often all of them are cut in four.
+struct CoarseMesh {
+  unsigned int radial_cells, angular_cells, n_refinements;
+};
+
+/// The same cells from fewer coarse ones where all have one size: each process holds the coarse
+/// mesh as a whole.
+CoarseMesh coarsen(const Scene& scene, const MeshOptions& mesh) {
+  CoarseMesh coarse = {mesh.radial_cells, mesh.angular_cells, mesh.global_refinements};
+  auto& [n_radial, n_angular, n_refinements] = coarse;
+  const auto is_equal = [&scene](unsigned int n) {
+    return !has_graded_radii(scene.inner_radius, scene.outer_radius, n);
+  };
+  if (scene.has_given_zone || !is_equal(n_radial))
+    return coarse;
+  constexpr double few = 10000; // which cost nothing
+  while (1. * n_radial * n_angular > few && n_radial % 2 == 0 && n_angular % 2 == 0 &&
+         is_equal(n_radial / 2)) {
+    n_radial /= 2;
+    n_angular /= 2;
+    ++n_refinements;
+  }
+  return coarse;
+}
+
+} // namespace
+
 std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& mesh,
-                                                 bool may_be_refined, MPI_Comm communicator) {
+                                                 MPI_Comm communicator) {
   check_mesh_size(mesh);
+  const CoarseMesh coarse = coarsen(scene, mesh);
 
   // The least memory of the cells alone.
-  const double bytes = 200. * count_unknowns(mesh) / (mesh.degree * mesh.degree);
-  require_memory(bytes / count_processes(communicator), "the mesh", communicator);
+  constexpr double bytes_per_cell = 200;
+  const double n_coarse = 1. * coarse.radial_cells * coarse.angular_cells,
+               n_cells = std::ldexp(n_coarse, 2 * coarse.n_refinements);
+  require_memory(bytes_per_cell * (n_coarse + n_cells / count_processes(communicator)), "the mesh",
+                 communicator);
 
-  std::vector<double> radii = radii_of(scene.inner_radius, scene.outer_radius, mesh.radial_cells);
-  std::vector<double> angles = angles_of(scene, mesh.angular_cells);
-  for (unsigned int refinement = 0; refinement < mesh.global_refinements; ++refinement) {
-    halve(radii);
-    halve(angles);
+  auto grid = make_grid(radii_of(scene.inner_radius, scene.outer_radius, coarse.radial_cells),
+                        angles_of(scene, coarse.angular_cells));
+  if (is_serial(communicator)) {
+    join_seam(*grid);
+    grid->refine_global(coarse.n_refinements);
+    return grid;
   }
-  std::unique_ptr<Triangulation<2>> triangulation;
-  if (is_serial(communicator))
-    triangulation = make_grid(radii, angles);
-  else if (!may_be_refined)
-    triangulation = make_strips(radii, angles, communicator);
-  else {
-    // Cells change their process when a refinement is complete, and not before.
-    using Distributed = parallel::distributed::Triangulation<2>;
-    triangulation = std::make_unique<Distributed>(communicator, smoothing,
-                                                  Distributed::no_automatic_repartitioning);
-    triangulation->copy_triangulation(*make_grid(radii, angles));
-  }
-  join_seam(*triangulation);
-  return triangulation;
+  // Cells change their process when a refinement is complete, and not before.
+  using Distributed = parallel::distributed::Triangulation<2>;
+  auto shared = std::make_unique<Distributed>(communicator, smoothing,
+                                              Distributed::no_automatic_repartitioning);
+  shared->copy_triangulation(*grid);
+  join_seam(*shared);
+  shared->refine_global(coarse.n_refinements);
+  shared->repartition();
+  return shared;
 }
 
 } // namespace rollwave

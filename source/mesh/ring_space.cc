@@ -83,7 +83,9 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     n_own_unknowns += !affine_constraints.is_constrained(dof);
   unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
 
-  if (!is_serial(communicator()))
+  if (is_serial(communicator()))
+    order = dissect(handler);
+  else
     for (const auto& line : affine_constraints.get_lines())
       for (const auto& entry : line.entries)
         relevant.add_index(entry.first);
@@ -135,12 +137,6 @@ RingSpace::surface_edge(const Triangulation<2>::active_cell_iterator& cell) cons
   if (cell->vertex(1)[0] != radius) // quicker than at_boundary(), and asked for every cell
     return {};
   return edge_from.at(cell->vertex(1)[1]);
-}
-
-const std::vector<types::global_dof_index>& RingSpace::elimination_order() const {
-  if (order.empty())
-    order = dissect(handler);
-  return order;
 }
 
 std::vector<double> RingSpace::surface_values(const FieldVector& field) const {

@@ -177,19 +177,6 @@ void declare_contact(Keys& keys, ContactOptions& contact) {
            "Largest number of steps of the contact iteration, 1 or more.");
 }
 
-void declare_solver(Keys& keys, SolverOptions& solver) {
-  keys.enter("Solver", Affects::mesh);
-  keys.add_choice<SolverKind>(
-      "Kind", solver.kind,
-      {{"auto", SolverKind::automatic},
-       {"direct", SolverKind::direct},
-       {"iterative", SolverKind::iterative}},
-      "The linear solver. \"direct\": one sparse Cholesky factorisation for each mesh. "
-      "\"iterative\": conjugate gradients with algebraic multigrid, slower but with less memory. "
-      "\"auto\": \"direct\"; \"iterative\" on several processes, for very many contact nodes and "
-      "when memory is short.");
-}
-
 /// Declares every key: name, variable, range, unit and text, each in one statement.
 void declare(Keys& keys, Parameters& p) {
   declare_cylinder(keys, p.cylinder);
@@ -198,7 +185,6 @@ void declare(Keys& keys, Parameters& p) {
   declare_mesh(keys, p);
   declare_certificate(keys, p.certificate);
   declare_contact(keys, p.contact);
-  declare_solver(keys, p.solver);
   declare_study(keys, p.study);
   declare_output(keys, p.output, p.material.unit_names);
 }

@@ -202,8 +202,6 @@ Quantities work_quantities() {
        Shown::table, all_digits, [](const Result& r) { return r.history.size(); }},
       {"iterations.rho", "step length of Uzawa's method", "", Quantity::force_density, 0,
        all_digits, [](const Result& r) { return r.rho > 0 ? std::optional(r.rho) : std::nullopt; }},
-      {"iterations.linear", "iterations of conjugate gradients", "", Quantity::count, 0, all_digits,
-       [](const Result& r) { return r.statistics.linear_iterations; }},
   };
   const auto add_count = [&all](const std::string& name, const std::string& words, auto count) {
     all.push_back({"work." + name, words, "", Quantity::count, 0, all_digits,
@@ -216,10 +214,8 @@ Quantities work_quantities() {
   add_count("factorisations", "factorisations of sparse matrices", &RunStatistics::factorisations);
   add_count("dense_factorisations", "factorisations of dense matrices",
             &RunStatistics::dense_factorisations);
-  add_count("forward_substitutions", "forward substitutions",
-            &RunStatistics::forward_substitutions);
-  add_count("back_substitutions", "back substitutions", &RunStatistics::back_substitutions);
-  add_count("preconditioners", "preconditioners set up", &RunStatistics::preconditioners);
+  add_count("sparse_solves", "solutions with a factor of a sparse matrix",
+            &RunStatistics::sparse_solves);
   add_count("bytes_written", "bytes written except those of summary.json",
             &RunStatistics::bytes_written);
   for (const std::string& phase : RunStatistics::phase_names())

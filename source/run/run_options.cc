@@ -2,8 +2,6 @@
 
 #include "rollwave/base/errors.h"
 
-#include <algorithm>
-
 namespace rollwave {
 
 namespace {
@@ -25,21 +23,6 @@ void check_certificate(const RunOptions& options) {
 Scene make_scene(const RunOptions& options) {
   check_certificate(options);
   return make_scene(options.cylinder, options.road, options.material, options.mesh.angular_cells);
-}
-
-RunOptions coarser(RunOptions options) {
-  auto& mesh = options.mesh;
-  for (int halving = 0; halving < 2; ++halving)
-    if (mesh.global_refinements > 0)
-      --mesh.global_refinements;
-    else {
-      mesh.radial_cells = (mesh.radial_cells + 1) / 2;
-      mesh.angular_cells = std::max(3u, (mesh.angular_cells + 1) / 2);
-    }
-  mesh.adaptive_cycles = 0;
-  mesh.wanted_relative_error = 0;
-  options.certificate = {/*error_bound=*/false, /*load_bounds=*/false};
-  return options;
 }
 
 } // namespace rollwave

@@ -3,11 +3,10 @@
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
-#include "rollwave/base/mpi_processes.h"
+#include "rollwave/base/text.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
-#include "rollwave/run/load_bounds.h"
 #include "rollwave/run/measure.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -21,36 +20,64 @@ namespace rollwave {
 
 using namespace dealii;
 
-void check_simulation(const RunOptions& options, unsigned int n_processes) {
-  if (options.solver.kind == SolverKind::direct && n_processes > 1)
-    throw BadValue("Solver", "Kind",
-                   "the direct kind needs one process; on several use auto or iterative");
+namespace {
+
+/// About how many nodes of the first mesh lie in the zone of contact.
+double count_contact_nodes(const Scene& scene, const MeshOptions& mesh) {
+  const double share = (scene.zone_end - scene.zone_begin) / (2 * numbers::PI);
+  return share * std::ldexp(1. * mesh.degree * mesh.angular_cells, mesh.global_refinements);
+}
+
+} // namespace
+
+void check_simulation(const Scene& scene, const RunOptions& options) {
   check_mesh_size(options.mesh);
+  constexpr double most_nodes = 20000; // a dense factorisation takes some minutes
+  const double nodes = count_contact_nodes(scene, options.mesh);
+  if (nodes > most_nodes)
+    throw BadValue("Mesh",
+                   options.mesh.global_refinements > 0 ? "Global refinements" : "Angular cells",
+                   "about " + rounded(nodes, 6) + " nodes would lie in the zone of contact, and " +
+                       rounded(most_nodes, 6) +
+                       " are the most: the dense problem of n contact nodes takes n^3 operations; "
+                       "use fewer cells along the angle, or a coarse mesh with "
+                       "Mesh/Wanted relative error");
 }
 
 namespace {
 
 /// The certificate of a solution, where it is wanted and does not fail.
-std::optional<Certificate> certify_solution(const RunOptions& options, Discretisation& mesh,
+/// @param dual is made if it is not there yet
+std::optional<Certificate> certify_solution(const RunOptions& options, const Load* load,
+                                            std::unique_ptr<const DualSystem>& dual,
                                             MeshSolution& solution, RunStatistics& statistics) {
   std::optional<Certificate> certificate;
-  if (options.certificate.error_bound)
-    attempt([&] { certificate = certify(solution, mesh.cache, statistics); },
-            "the error could not be certified",
-            "use fewer unknowns, or set Certificate/Error bound to false", mesh.communicator(),
-            solution.shortfalls);
+  if (!options.certificate.error_bound)
+    return certificate;
+  const RunStatistics::Phase phase(statistics, "certificate");
+  const RingSpace& space = solution.boundary.space();
+  attempt(
+      [&] {
+        if (!dual)
+          dual = std::make_unique<DualSystem>(space, solution.scene, statistics);
+        certificate =
+            certify(solution.boundary, solution.scene, solution.problem, solution.contact,
+                    solution.displacement, load ? &load->integral : nullptr, *dual, statistics);
+      },
+      "the error could not be certified",
+      "use fewer unknowns, or set Certificate/Error bound to false", space.communicator(),
+      solution.shortfalls);
   return certificate;
 }
 
 /// eta_K of each active cell by Mesh/Indicator; Kelly's if there is no certificate.
-std::vector<double> cell_indicators(const RunOptions& options, const Discretisation& mesh,
-                                    const MeshSolution& solution,
+std::vector<double> cell_indicators(const RunOptions& options, const MeshSolution& solution,
                                     const std::optional<Certificate>& certificate,
                                     RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "indicator");
   if (certificate && options.mesh.indicator == Indicator::certificate)
     return certificate->cell_bounds;
-  return kelly_indicator(*mesh.space, solution.displacement);
+  return kelly_indicator(solution.boundary.space(), solution.displacement);
 }
 
 /// sqrt(sum eta_K^2) over the cells of all processes.
@@ -90,7 +117,7 @@ bool is_load_beyond_meshes(const MeshSolution& solution, unsigned int n_meshes) 
 
 /// True if no further mesh is needed or possible: the wanted error is reached, the cycles or the
 /// room are used up, the certificate has failed, or finer meshes do not resolve the load either.
-bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
+bool is_last(const RunOptions& options, const Mesh& mesh, const MeshSolution& solution,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
   return has_failed || is_load_beyond_meshes(solution, n_meshes) ||
@@ -102,28 +129,24 @@ std::string interrupted_text(unsigned int n_meshes) {
   return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
 }
 
-/// Bounds the work-conjugate load or, where that is given, the distance.
-void add_load_bounds(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
-                     const CertifiedError& error, RunStatistics& statistics, Result& result) {
-  const auto& load = solution.scene.load;
-  if (solution.scene.road.is_convex())
-    result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
-                             "least energy need not be convex in the distance");
-  else if (!load)
-    result.load_bounds = bound_load(options, mesh, solution, error, statistics);
-  else if (load->kind == LoadKind::work_conjugate) {
-    result.distance_bounds = bound_distance(options, mesh, solution, error, statistics);
-    if (!result.distance_bounds)
-      result.remarks.push_back("the distance has no bounds: those of the energy are too wide on "
-                               "this mesh; refine it");
-  } else
-    result.remarks.push_back(
-        "there are no bounds of G or c for a given vertical or total load; give "
-        "Road/Distance for bounds of G, or Road/Load kind = work-conjugate");
+/// Computes the stiffness of the loads, where the mesh resolves it.
+void add_stiffness(const RunOptions& options, const System& system, const Load* load,
+                   MeshSolution& solution, RunStatistics& statistics) {
+  if (reaches_tangent(solution.problem, solution.contact.active))
+    return;
+  const RunStatistics::Phase phase(statistics, "measurement");
+  attempt(
+      [&] {
+        solution.resultants.stiffness = contact_stiffness(
+            contact_equations(system, load, solution.boundary), solution.boundary, solution.scene,
+            solution.problem, solution.contact, options.contact.most_steps, statistics);
+      },
+      "the stiffness could not be computed", "raise Contact/Most steps",
+      solution.boundary.space().communicator(), solution.shortfalls);
 }
 
 /// Adds the targets that were not reached, and the remarks.
-void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation& mesh,
+void add_shortfalls_and_remarks(const RunOptions& options, const Mesh& mesh,
                                 const MeshSolution& solution,
                                 const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
@@ -139,7 +162,7 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation&
 }
 
 /// The solution of a run from that on its last mesh.
-Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution last,
+Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
                 bool is_interrupted, RunStatistics statistics) {
   Result result = measure(last);
@@ -148,29 +171,26 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
   if (certificate)
     result.certified = certificate->error;
   add_shortfalls_and_remarks(options, mesh, last, certificate, result);
-  if (options.certificate.load_bounds && certificate && !is_interrupted)
-    attempt([&] { add_load_bounds(options, mesh, last, certificate->error, statistics, result); },
-            "the bounds of the load or distance could not be computed",
-            "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
-            result.shortfalls);
-  if (!mesh.is_shared)
-    mesh.cache = {};
   result.statistics = std::move(statistics);
   return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
           std::move(result)};
 }
 
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
-/// @param pressure to start from
-Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& options,
-                          PressureProfile pressure, RunStatistics statistics,
-                          const Progress& progress, std::vector<CycleFigures>& cycles) {
+Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
+                          RunStatistics statistics, const Progress& progress,
+                          std::vector<CycleFigures>& cycles) {
+  PressureProfile pressure; // on the mesh before
   for (;;) {
-    MeshSolution solution = solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache,
+    System system = make_system(*mesh.space, scene, scene.zone(), statistics);
+    const std::unique_ptr<const Load> load = make_load(system, scene, statistics);
+    MeshSolution solution = solve_on_mesh(system, load.get(), scene, options.contact, pressure,
                                           statistics, progress.contact_step_ended);
-    if (!mesh.is_shared && !options.certificate.load_bounds)
-      mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
-    std::optional<Certificate> certificate = certify_solution(options, mesh, solution, statistics);
+    system.factor.reset(); // the certificate needs its memory
+    std::unique_ptr<const DualSystem> dual;
+    std::optional<Certificate> certificate =
+        certify_solution(options, load.get(), dual, solution, statistics);
+    dual.reset();
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
     const bool ends = is_last(options, mesh, solution, certificate, cycles.size());
@@ -181,64 +201,34 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     if (goes_on) {
       scene = solution.scene;
       pressure = pressure_profile(solution);
-      const auto indicators = cell_indicators(options, mesh, solution, certificate, statistics);
+      const auto indicators = cell_indicators(options, solution, certificate, statistics);
       cycles.back().indicated = l2_norm(indicators, mesh.communicator());
-      goes_on = mesh.refine(indicators, scene, options, statistics);
+      goes_on = refine(mesh, indicators, scene, options, statistics);
     }
     if (progress.mesh_solved && (goes_on || cycles.size() > 1))
       progress.mesh_solved(cycles.size(), cycles.back());
-    if (!goes_on)
+    if (!goes_on) {
+      add_stiffness(options, system, load.get(), solution, statistics);
       return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
                     is_stopped, std::move(statistics));
-  }
-}
-
-/// True if the first contact iteration begins on a coarser mesh: each of its steps costs the
-/// iterative kind a new preconditioner.
-bool begins_coarser(const RunOptions& options, MPI_Comm communicator) {
-  constexpr double least_unknowns = 1e5;
-  return (options.solver.kind == SolverKind::iterative || !is_serial(communicator)) &&
-         options.contact.method == ContactMethod::active_set &&
-         count_unknowns(options.mesh) > least_unknowns;
-}
-
-/// A start from a coarser mesh.
-struct Start {
-  Scene scene; ///< with the distance found there
-  PressureProfile pressure;
-};
-
-/// Solves on a coarser mesh. If that fails, such as for a short zone, returns the scene unchanged
-/// and no pressure.
-Start solve_coarser(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                    RunStatistics& statistics) {
-  try {
-    const RunOptions coarse = coarser(options);
-    Discretisation mesh(scene, coarse, communicator, statistics);
-    const MeshSolution solution =
-        solve_on_mesh(scene, coarse, mesh.candidates, {}, mesh.cache, statistics);
-    return {solution.scene, pressure_profile(solution)};
-  } catch (const BadInput&) {
-    return {scene, {}};
-  } catch (const NotSolved&) {
-    return {scene, {}};
+    }
   }
 }
 
 } // namespace
 
-Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  RunStatistics statistics, const Progress& progress) {
-  const MPI_Comm communicator = mesh.communicator();
-  Start start = {scene, {}};
-  if (begins_coarser(options, communicator))
-    start = solve_coarser(scene, options, communicator, statistics);
+Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+                  const Progress& progress) {
+  check_simulation(scene, options);
+  require_dense_memory(count_contact_nodes(scene, options.mesh), communicator);
+  RunStatistics statistics(progress.phase_ended);
+  Mesh mesh = make_mesh(scene, options, communicator, statistics);
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
   std::vector<CycleFigures> cycles;
   try {
-    return solve_and_refine(std::move(mesh), start.scene, options, std::move(start.pressure),
-                            std::move(statistics), progress, cycles);
+    return solve_and_refine(std::move(mesh), scene, options, std::move(statistics), progress,
+                            cycles);
   } catch (const NotEnoughMemory& shortage) {
     if (cycles.empty())
       throw;
@@ -248,12 +238,19 @@ Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& opt
   }
 }
 
-Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
-                  const Progress& progress) {
-  check_simulation(options, count_processes(communicator));
-  RunStatistics statistics(progress.phase_ended);
-  Discretisation mesh(scene, options, communicator, statistics);
-  return simulate(std::move(mesh), scene, options, std::move(statistics), progress);
+Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
+                         const RunOptions& options, RunStatistics statistics) {
+  if (is_interrupted(mesh.communicator()))
+    throw Interrupted("interrupted before the mesh was solved");
+  const Load* const load = shared.load.get();
+  MeshSolution solution =
+      solve_on_mesh(shared.system, load, scene, options.contact, {}, statistics);
+  std::optional<Certificate> certificate =
+      certify_solution(options, load, shared.dual, solution, statistics);
+  const auto cycle = describe_cycle(*mesh.space, solution, certificate);
+  add_stiffness(options, shared.system, load, solution, statistics);
+  return finish(options, std::move(mesh), std::move(solution), std::move(certificate), {cycle},
+                /*is_interrupted=*/false, std::move(statistics));
 }
 
 } // namespace rollwave

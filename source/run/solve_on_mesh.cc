@@ -5,6 +5,8 @@
 #include "rollwave/contact/load_control.h"
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -24,7 +26,7 @@ double relative(double part, double whole) {
 
 Residuals measure_residuals(const ContactBoundary& boundary, const ContactProblem& problem,
                             const ContactSolution& solution, FieldVector stiffness_times_u,
-                            const std::optional<FieldVector>& load) {
+                            const FieldVector* load) {
   const auto& [displacement, force] = solution.state;
   FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
@@ -47,41 +49,15 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
           relative(force_times_gap, force_times_road)};
 }
 
-/// @throws NotSolved if @p squared is not finite
-void require_finite(double squared, const std::string& what) {
-  if (!std::isfinite(squared))
-    throw NotSolved(what +
-                    " overflows double precision: change Cylinder/Radial force, or choose radii "
-                    "that differ more");
-}
-
-/// Makes the force and the load of @p cache those of the scene.
-void make_load(const Scene& scene, const RingSpace& space, MeshCache& cache,
-               RunStatistics& statistics) {
-  if (!scene.force) {
-    cache.force.reset();
-    cache.load.reset();
-  } else if (!cache.load || cache.force_text != scene.force.text) {
-    const RunStatistics::Phase phase(statistics, "assembly");
-    RadialShapesOfMesh shapes(scene, space.dof_handler().get_fe().degree);
-    cache.force = std::make_unique<ForceIntegral>(space, scene, shapes);
-    cache.load = assemble_load(space, *cache.force, shapes);
-    cache.force_text = scene.force.text;
-    ++statistics.load_assemblies;
-  }
-  if (cache.load)
-    require_finite(cache.load->norm_sqr(), "the load");
-}
-
 /// Finds the distance if a load is given. Then solves the contact problem.
-void solve_contact_on(const RunOptions& options, const PressureProfile& start,
-                      ContactLinearSolver& solver, const ContactObserver& step_ended,
-                      MeshSolution& solution) {
+void solve_contact_on(const ContactOptions& options, const PressureProfile& start,
+                      const ContactEquations& equations, const ContactObserver& step_ended,
+                      RunStatistics& statistics, MeshSolution& solution) {
   const ContactBoundary& boundary = solution.boundary;
   Vector<double> pressure = start.at(boundary.contact_nodes());
   if (solution.scene.load) {
-    RoadPosition road =
-        find_distance(solver, boundary, solution.scene, options.contact.most_steps, pressure);
+    RoadPosition road = find_distance(equations, boundary, solution.scene, options.most_steps,
+                                      pressure, statistics);
     solution.scene = with_distance(solution.scene, road.distance);
     if (const auto shortfall = missing_load_text(solution.scene, road.load))
       solution.shortfalls.push_back(*shortfall);
@@ -89,7 +65,8 @@ void solve_contact_on(const RunOptions& options, const PressureProfile& start,
     solution.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
-  solution.contact = solve_contact(solver, solution.problem, options.contact, pressure, step_ended);
+  solution.contact =
+      solve_contact(equations, solution.problem, options, pressure, statistics, step_ended);
   if (!solution.contact.remark.empty())
     solution.remarks.push_back(solution.contact.remark);
 }
@@ -146,51 +123,41 @@ PressureProfile pressure_profile(const MeshSolution& solution) {
           solution.problem.pressures(solution.contact.state.force), solution.resultants.ends};
 }
 
-MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
-                           const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& statistics,
-                           const ContactObserver& step_ended) {
-  const RingSpace& space = candidates.space();
-  MeshSolution solution = {scene, ContactBoundary(space, scene.zone())};
-  const ContactBoundary& boundary = solution.boundary;
-  make_load(scene, space, cache, statistics);
-  if (cache.stiffness.solver)
-    cache.stiffness.solver->set_problem(scene, boundary, cache.load, statistics);
-  else
-    cache.stiffness =
-        choose_solver(options.solver.kind, candidates, scene, boundary, cache.load, statistics);
-  ContactLinearSolver& solver = *cache.stiffness.solver;
-  if (!cache.stiffness.remark.empty())
-    solution.remarks.push_back(cache.stiffness.remark);
-  Loads stiffness;
-  {
-    const RunStatistics::Phase phase(statistics, "contact");
-    solve_contact_on(options, start, solver, step_ended, solution);
-    solution.displacement = solver.displacement_field(solution.contact.state);
-    stiffness = contact_stiffness(solver, boundary, solution.scene, solution.problem,
-                                  solution.contact, options.contact.most_steps);
-  }
-  const RunStatistics::Phase phase(statistics, "measurement");
-  solution.resultants =
-      measure_contact(solution.scene, boundary.contact_nodes(), solution.problem, solution.contact);
-  solution.resultants.stiffness = stiffness;
-  if (reaches_tangent(solution.problem, solution.contact.active))
-    leave_out_unresolved_loads(solution);
-  FieldVector stiffness_times_u = solver.apply(solution.displacement);
-  const double norm_squared = solution.displacement * stiffness_times_u;
-  const double work_of_force = cache.load ? solution.displacement * *cache.load : 0.;
-  require_finite(norm_squared + std::abs(work_of_force), "the energy");
-  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
-  solution.residuals = measure_residuals(boundary, solution.problem, solution.contact,
-                                         std::move(stiffness_times_u), cache.load);
-  return solution;
+ContactEquations contact_equations(const System& system, const Load* load,
+                                   const ContactBoundary& boundary) {
+  const auto first = system.boundary.contact_number(boundary.first_surface_node());
+  AssertThrow(first && *first + boundary.size() <= system.boundary.size(), ExcInternalError());
+  return {*system.condensed, load ? load->condensed : Vector<double>(), *first, boundary.size()};
 }
 
-Certificate certify(const MeshSolution& solution, MeshCache& cache, RunStatistics& statistics) {
-  StressFunction& stress_function =
-      cache.stress_function_for(solution.scene, solution.boundary.space(), statistics);
-  return certify(solution.boundary, solution.scene, solution.problem, solution.contact,
-                 solution.displacement, cache.force.get(), stress_function, statistics);
+MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& scene,
+                           const ContactOptions& options, const PressureProfile& start,
+                           RunStatistics& statistics, const ContactObserver& step_ended) {
+  MeshSolution solution = {scene, ContactBoundary(system.boundary.space(), scene.zone())};
+  const ContactEquations equations = contact_equations(system, load, solution.boundary);
+  const FieldVector* const f = load ? &load->vector : nullptr;
+  {
+    const RunStatistics::Phase phase(statistics, "contact");
+    solve_contact_on(options, start, equations, step_ended, statistics, solution);
+  }
+  {
+    const RunStatistics::Phase phase(statistics, "back-substitution");
+    solution.displacement = system.factor->expand(
+        f, equations.complete(solution.contact.state.displacement, statistics), statistics);
+  }
+  const RunStatistics::Phase phase(statistics, "measurement");
+  solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),
+                                        solution.problem, solution.contact);
+  if (reaches_tangent(solution.problem, solution.contact.active))
+    leave_out_unresolved_loads(solution);
+  FieldVector stiffness_times_u = system.factor->apply(solution.displacement);
+  const double norm_squared = solution.displacement * stiffness_times_u;
+  const double work_of_force = f ? solution.displacement * *f : 0.;
+  require_finite(norm_squared + std::abs(work_of_force), "the energy");
+  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  solution.residuals = measure_residuals(solution.boundary, solution.problem, solution.contact,
+                                         std::move(stiffness_times_u), f);
+  return solution;
 }
 
 } // namespace rollwave

@@ -107,13 +107,13 @@ void CholmodFactor::set_matrix(const LowerTriplets& triplets) {
   view.itype = CHOLMOD_INT;
   view.xtype = CHOLMOD_REAL;
   view.dtype = CHOLMOD_DOUBLE;
-  cholmod_free_sparse(&cholmod->matrix, &cholmod->common);
   cholmod->matrix = cholmod_triplet_to_sparse(&view, 0, &cholmod->common);
   cholmod->check("assembly");
-  if (!cholmod->factor)
-    cholmod->factor = cholmod_analyze(cholmod->matrix, &cholmod->common);
+  cholmod->factor = cholmod_analyze(cholmod->matrix, &cholmod->common);
   cholmod->check("analysis");
 }
+
+CholmodFactor::CholmodFactor(CholmodFactor&& other) noexcept = default;
 
 CholmodFactor::~CholmodFactor() = default;
 
@@ -131,12 +131,12 @@ std::vector<double> CholmodFactor::multiply(std::vector<double> x) const {
   return product;
 }
 
-std::vector<double> CholmodFactor::forward(std::vector<double> b) {
+std::vector<double> CholmodFactor::forward(std::vector<double> b) const {
   cholmod->solve_triangle(cholmod_super_lsolve, b);
   return b;
 }
 
-std::vector<double> CholmodFactor::backward(std::vector<double> y) {
+std::vector<double> CholmodFactor::backward(std::vector<double> y) const {
   cholmod->solve_triangle(cholmod_super_ltsolve, y);
   return y;
 }
@@ -165,7 +165,7 @@ dealii::FullMatrix<double> CholmodFactor::trailing_factor(int m) const {
 }
 
 double CholmodFactor::n_factor_entries() const {
-  return cholmod->factor ? cholmod->factor->xsize : 0;
+  return cholmod->factor->xsize;
 }
 
 } // namespace rollwave

@@ -27,10 +27,9 @@ std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& var
   return all;
 }
 
-void check(const Parameters& parameters, unsigned int n_processes) {
+void check(const Parameters& parameters) {
   try {
-    make_scene(parameters);
-    check_simulation(parameters, n_processes);
+    check_simulation(make_scene(parameters), parameters);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }
@@ -65,7 +64,7 @@ std::string lower_case_name(const Key& key) {
 
 } // namespace
 
-std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes) {
+std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   std::vector<NamedScene> scenes = parameters.study.scenes;
   if (scenes.empty())
     scenes.push_back({"", {}});
@@ -77,7 +76,7 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_proc
       settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
       settings.insert(settings.end(), varied.begin(), varied.end());
       plans.push_back({scene.name, varied, {}, read_parameters(settings)});
-      check(plans.back().parameters, n_processes);
+      check(plans.back().parameters);
     }
   check_method(plans);
   const auto& published = parameters.study.published_steps;

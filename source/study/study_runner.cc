@@ -75,9 +75,9 @@ bool make_runs(Study& study, const Parameters& parameters, const fs::path& direc
 
 } // namespace
 
-Study plan_study(const Parameters& parameters, MPI_Comm communicator) {
+Study plan_study(const Parameters& parameters) {
   Study study;
-  study.plans = plan_runs(parameters, count_processes(communicator));
+  study.plans = plan_runs(parameters);
   study.runs.resize(study.plans.size());
   unsigned int n_keys = 0;
   for (const Variation& variation : parameters.study.vary) {

@@ -20,13 +20,35 @@ using namespace dealii;
 
 namespace {
 
-/// The settings of a run that affect its mesh and matrices, or its scene.
-std::map<std::string, std::string> settings_of(const RunPlan& plan, unsigned int affected) {
-  std::map<std::string, std::string> settings;
-  for (const Setting& setting : plan.parameters.settings)
-    if (key_of(setting).affects & affected)
-      settings[setting.path()] = setting.value;
-  return settings;
+/// True if two runs have the same mesh, which neither refines.
+bool have_same_mesh(const Parameters& one, const Parameters& other) {
+  return most_cycles(one.mesh) == 0 && most_cycles(other.mesh) == 0 &&
+         one.cylinder.inner_radius == other.cylinder.inner_radius &&
+         one.cylinder.outer_radius == other.cylinder.outer_radius &&
+         one.mesh.MeshOptions::operator==(other.mesh) &&
+         one.road.contact_zone == other.road.contact_zone;
+}
+
+/// True if two runs have the same mesh and stiffness.
+bool have_same_system(const Parameters& one, const Parameters& other) {
+  return have_same_mesh(one, other) &&
+         one.cylinder.angular_velocity == other.cylinder.angular_velocity &&
+         one.material.wave_speed() == other.material.wave_speed();
+}
+
+/// True if two runs have the same force relative to the shear modulus.
+bool have_same_force(const Parameters& one, const Parameters& other) {
+  return one.cylinder.radial_force == other.cylinder.radial_force &&
+         one.material.shear_modulus == other.material.shear_modulus;
+}
+
+/// The value for a key, computed when it is first asked for.
+template <typename Key, typename Value, typename Compute>
+const Value& known_or_computed(std::vector<std::pair<Key, Value>>& known, const Key& key,
+                               const Compute& compute) {
+  const auto entry =
+      std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == key; });
+  return entry != known.end() ? entry->second : known.emplace_back(key, compute()).second;
 }
 
 } // namespace
@@ -35,22 +57,7 @@ StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& st
                          const std::filesystem::path& directory, const Progress& progress,
                          MPI_Comm communicator)
     : plans(plans), study(study), directory(directory), progress(progress),
-      communicator(communicator) {
-  if (study.study.true_errors)
-    return;
-  std::map<Settings, unsigned int> n_runs;
-  for (const RunPlan& plan : plans)
-    if (most_cycles(plan.parameters.mesh) == 0) {
-      const Scene scene = make_scene(plan.parameters);
-      const Settings key = settings_of(plan, Affects::mesh);
-      auto& zone = widest_zone.try_emplace(key, scene.zone_begin, scene.zone_end).first->second;
-      zone = {std::min(zone.first, scene.zone_begin), std::max(zone.second, scene.zone_end)};
-      ++n_runs[key];
-    }
-  for (const auto& [key, n] : n_runs)
-    if (n == 1)
-      widest_zone.erase(key);
-}
+      communicator(communicator) {}
 
 StudyRun StudySolver::solve(unsigned int number) {
   const RunPlan& plan = plans[number];
@@ -58,7 +65,7 @@ StudyRun StudySolver::solve(unsigned int number) {
   if (!study.study.files_of_each_run.empty())
     run.files = "run-" + Utilities::int_to_string(number + 1, 3);
   try {
-    solve(plan, run);
+    solve(number, run);
   } catch (const Interrupted&) {
     throw;
   } catch (const NotSolved& failure) {
@@ -95,39 +102,66 @@ Solution StudySolver::solve_timed(const RunPlan& plan) {
   return std::move(*fastest);
 }
 
-Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
-  const Scene scene = make_scene(plan.parameters);
-  const Settings key = settings_of(plan, Affects::mesh);
-  std::optional<Discretisation> mesh;
-  if (last_mesh == key) {
-    mesh = std::move(solution->mesh);
-    run.shared = "mesh";
+/// The zone that contains those of this run and of the next ones with the same system.
+std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
+  std::pair<double, double> widest = make_scene(plans[number].parameters).zone();
+  for (unsigned int next = number + 1;
+       next < plans.size() && have_same_system(plans[number].parameters, plans[next].parameters);
+       ++next) {
+    const auto [begin, end] = make_scene(plans[next].parameters).zone();
+    widest = {std::min(widest.first, begin), std::max(widest.second, end)};
   }
-  solution.reset();  // frees its memory first
-  last_mesh.reset(); // if this run fails, the next one makes its own mesh
-  const auto zone = widest_zone.find(key);
-  if (zone == widest_zone.end())
-    return simulate(scene, plan.parameters, communicator, progress);
-  RunStatistics statistics;
-  if (!mesh)
-    mesh.emplace(scene, plan.parameters, communicator, statistics, zone->second);
-  Solution shared = simulate(std::move(*mesh), scene, plan.parameters, std::move(statistics));
-  last_mesh = key;
-  if (!run.shared.empty() && shared.result.statistics.stiffness_assemblies == 0)
-    run.shared = "mesh and matrices";
-  return shared;
+  return widest;
 }
 
-void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
-  solution.emplace(study.study.true_errors ? solve_timed(plan) : solve_on_shared_mesh(plan, run));
+/// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
+Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
+  const Parameters& parameters = plans[number].parameters;
+  const Scene scene = make_scene(parameters);
+  const auto is_shared_with_last = [&](const auto& have_same) {
+    return last && have_same(plans[*last].parameters, parameters);
+  };
+  const bool has_mesh = is_shared_with_last(have_same_mesh),
+             has_system = is_shared_with_last(have_same_system),
+             has_load = has_system && is_shared_with_last(have_same_force),
+             is_followed = number + 1 < plans.size() &&
+                           have_same_mesh(parameters, plans[number + 1].parameters);
+  std::optional<Mesh> mesh;
+  if (has_mesh) {
+    mesh = std::move(solution->mesh);
+    run.shared = has_system ? "mesh and matrices" : "mesh";
+  }
+  last.reset();     // if this run fails, the next one makes its own mesh
+  solution.reset(); // frees its memory first
+  if (!has_system)
+    shared.reset();
+  if (!has_mesh && !is_followed)
+    return simulate(scene, parameters, communicator, progress);
+  RunStatistics statistics;
+  if (!mesh)
+    mesh = make_mesh(scene, parameters, communicator, statistics);
+  if (!shared)
+    shared.emplace(
+        SharedObjects{make_system(*mesh->space, scene, widest_zone(number), statistics), {}, {}});
+  if (!has_load)
+    shared->load = make_load(shared->system, scene, statistics);
+  Solution result =
+      solve_on_shared(std::move(*mesh), *shared, scene, parameters, std::move(statistics));
+  last = number;
+  return result;
+}
+
+void StudySolver::solve(unsigned int number, StudyRun& run) {
+  const RunPlan& plan = plans[number];
+  solution.emplace(study.study.true_errors ? solve_timed(plan) : solve_shared(number, run));
   Result& result = solution->result;
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(plan, solution->scene)) {
+    if (const auto& exact = exact_solution(plan.parameters, solution->scene)) {
       result.errors = measure_true_errors(*solution, *exact);
       if (solution->scene.load)
-        result.errors->exact_distance = exact_distance(plan, solution->scene);
+        result.errors->exact_distance = exact_distance(plan.parameters, solution->scene);
       if (result.errors->is_resolved)
         run.reference = "the semi-analytic solution";
       else
@@ -145,20 +179,17 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
   run.remarks = result.remarks;
 }
 
-std::optional<double> StudySolver::exact_distance(const RunPlan& plan, const Scene& scene) {
-  const auto [known, is_first] = exact_distances.try_emplace(settings_of(plan, Affects::scene));
-  if (is_first)
-    known->second = find_exact_distance(scene);
-  return known->second;
+std::optional<double> StudySolver::exact_distance(const Parameters& parameters,
+                                                  const Scene& scene) {
+  const SceneKey key = {parameters.cylinder, parameters.road, parameters.material, 0};
+  return known_or_computed(exact_distances, key, [&] { return find_exact_distance(scene); });
 }
 
-const std::optional<ExactSolution>& StudySolver::exact_solution(const RunPlan& plan,
+const std::optional<ExactSolution>& StudySolver::exact_solution(const Parameters& parameters,
                                                                 const Scene& scene) {
-  const auto [known, is_first] =
-      exact_solutions.try_emplace({settings_of(plan, Affects::scene), scene.road.distance});
-  if (is_first)
-    known->second = find_exact_solution(scene);
-  return known->second;
+  const SceneKey key = {parameters.cylinder, parameters.road, parameters.material,
+                        scene.road.distance};
+  return known_or_computed(exact_solutions, key, [&] { return find_exact_solution(scene); });
 }
 
 } // namespace rollwave

@@ -6,12 +6,6 @@
 
 namespace rollwave {
 
-/// Starts MPI if it does not run yet, and keeps it until the program ends. Trilinos' matrices need
-/// MPI on one process as well: declare a member of this type before them.
-struct MpiSession {
-  MpiSession();
-};
-
 // MPI need not run for these: without it there is one process.
 
 /// True for the communicator of one process.

@@ -23,11 +23,8 @@ public:
   unsigned int stiffness_assemblies = 0;
   unsigned int orderings = 0;            ///< symbolic analyses of sparse matrices
   unsigned int factorisations = 0;       ///< of sparse matrices
-  unsigned int dense_factorisations = 0; ///< of the Schur complement on the contact nodes
-  unsigned int forward_substitutions = 0;
-  unsigned int back_substitutions = 0;
-  unsigned int preconditioners = 0;   ///< set up for an iterative solver of linear systems
-  unsigned int linear_iterations = 0; ///< of that solver
+  unsigned int dense_factorisations = 0; ///< of parts of the Schur complement on the contact nodes
+  unsigned int sparse_solves = 0;        ///< with a factor of a sparse matrix
   unsigned long bytes_written = 0;
 
   /// The names of all phases, in the order in which they follow each other.

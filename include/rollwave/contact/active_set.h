@@ -20,8 +20,8 @@ namespace rollwave {
  *        node is.
  * @throws NotSolved after @p most_steps steps.
  */
-ContactSolution active_set(ContactLinearSolver& solver, const ContactProblem& problem,
-                           unsigned int most_steps, const dealii::Vector<double>& start = {},
-                           const ContactObserver& step_ended = {});
+ContactSolution active_set(const ContactEquations& equations, const ContactProblem& problem,
+                           unsigned int most_steps, const dealii::Vector<double>& start,
+                           RunStatistics& statistics, const ContactObserver& step_ended = {});
 
 } // namespace rollwave

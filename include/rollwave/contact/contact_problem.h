@@ -1,16 +1,20 @@
 #pragma once
 
+#include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/scene/loads.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/solver/contact_linear_solver.h"
+#include "rollwave/solver/contact_equations.h"
 
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace rollwave {
+
+class RunStatistics;
 
 enum class ContactMethod {
   /// "active set": primal-dual active set (semismooth Newton); needs no step length.
@@ -34,6 +38,9 @@ struct ContactOptions {
   UzawaStop stop = UzawaStop::gap;
   double tolerance = 1e-8;
   unsigned int most_steps = 20000;
+
+  auto members() const { return std::tie(method, rho, stop, tolerance, most_steps); }
+  bool operator==(const ContactOptions& other) const { return members() == other.members(); }
 };
 
 /**
@@ -90,9 +97,8 @@ struct ContactSolution {
 
 /// Solves by the method of @p options, beginning with the contact pressures @p start (none when
 /// it has no entries). @throws NotSolved as the methods do.
-ContactSolution solve_contact(ContactLinearSolver& solver, const ContactProblem& problem,
-                              const ContactOptions& options,
-                              const dealii::Vector<double>& start = {},
-                              const ContactObserver& step_ended = {});
+ContactSolution solve_contact(const ContactEquations& equations, const ContactProblem& problem,
+                              const ContactOptions& options, const dealii::Vector<double>& start,
+                              RunStatistics& statistics, const ContactObserver& step_ended = {});
 
 } // namespace rollwave

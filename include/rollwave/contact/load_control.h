@@ -19,9 +19,10 @@ namespace rollwave {
  * @p solution is that of @p problem, which belongs to @p scene and its @p boundary.
  * @throws NotSolved as active_set()
  */
-Loads contact_stiffness(ContactLinearSolver& solver, const ContactBoundary& boundary,
+Loads contact_stiffness(const ContactEquations& equations, const ContactBoundary& boundary,
                         const Scene& scene, const ContactProblem& problem,
-                        const ContactSolution& solution, unsigned int most_steps);
+                        const ContactSolution& solution, unsigned int most_steps,
+                        RunStatistics& statistics);
 
 /// True if contact on a drum ends next to its tangent, with no free node before it. dphi/dc grows
 /// there like d^(-1/2) with the distance d from the tangent, so that the nodes resolve neither the
@@ -55,9 +56,9 @@ struct RoadPosition {
  * @throws BadValue where a road at Scene::least_distance carries less, or a drum around the
  *         cylinder carries more at every distance; NotSolved as active_set(), or after 100 trials.
  */
-RoadPosition find_distance(ContactLinearSolver& solver, const ContactBoundary& boundary,
+RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps,
-                           const dealii::Vector<double>& start);
+                           const dealii::Vector<double>& start, RunStatistics& statistics);
 
 /// How far @p load is from that of Scene::load, where that is more than 1e-9 of it.
 std::optional<std::string> missing_load_text(const Scene& scene, double load);

@@ -21,9 +21,9 @@ namespace rollwave {
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.
  */
-ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
-                      const ContactOptions& options, const dealii::Vector<double>& start = {},
-                      const ContactObserver& step_ended = {});
+ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& problem,
+                      const ContactOptions& options, const dealii::Vector<double>& start,
+                      RunStatistics& statistics, const ContactObserver& step_ended = {});
 
 /**
  * The largest eigenvalue theta of the compliance, displacement over pressure, of the contact nodes
@@ -31,7 +31,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
  * weights. By power iteration, which approaches it from below, to a relative accuracy of about
  * 1e-6.
  */
-double largest_compliance(ContactLinearSolver& solver, const ContactProblem& problem,
+double largest_compliance(const ContactEquations& equations, const ContactProblem& problem,
                           const std::vector<bool>& nodes);
 
 } // namespace rollwave

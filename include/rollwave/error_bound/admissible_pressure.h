@@ -23,7 +23,7 @@ struct EdgePressure {
  *
  * Each has the mean of the discrete pressure and the difference of its values at the vertices,
  * limited to 2 mean in size so that lambda >= 0. For degree 1 the slope is zero: the primitive of
- * lambda on r = b is a StressFunction of this degree. Where contact ends close to a vertex, the
+ * lambda on r = b is a stress function of this degree. Where contact ends close to a vertex, the
  * edge in contact gets the share of the edge outside, which would lie under the gap.
  */
 std::vector<EdgePressure> admissible_pressures(const ContactBoundary& boundary, const Scene& scene,

@@ -2,19 +2,23 @@
 
 #include "rollwave/error_bound/admissible_displacement.h"
 
+#include <tuple>
 #include <vector>
 
 namespace rollwave {
 
 struct Scene;
 class ForceIntegral;
-class StressFunction;
+class DualSystem;
 class RunStatistics;
 
 /// Section `Certificate`.
 struct CertificateOptions {
   bool error_bound = true;
   bool load_bounds = false;
+
+  auto members() const { return std::tie(error_bound, load_bounds); }
+  bool operator==(const CertificateOptions& other) const { return members() == other.members(); }
 };
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
@@ -43,7 +47,7 @@ struct CertifiedError {
  *
  * v is the discrete displacement except in the cells at the surface, where the correction c(z) of
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
- * a StressFunction psi, in terms of which the first integral is
+ * a stress function psi of the DualSystem, in terms of which the first integral is
  *
  *     int [ r alpha (psi_s + v_z)^2 + r ((Q_h - psi_z)/r - v_r)^2 ] dr dz,
  *
@@ -66,11 +70,10 @@ struct Certificate {
 
 /// Certifies the solution @p contact on the @p boundary of a scene with the displacement @p field.
 /// @param force that of the scene, nullptr without
-/// @param stress_function of the same space and speed
-/// @throws NotSolved when an iteration fails
+/// @param dual of the same space and speed
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactProblem& problem, const ContactSolution& contact,
-                    const FieldVector& field, const ForceIntegral* force,
-                    StressFunction& stress_function, RunStatistics& statistics);
+                    const FieldVector& field, const ForceIntegral* force, const DualSystem& dual,
+                    RunStatistics& statistics);
 
 } // namespace rollwave

@@ -38,7 +38,7 @@ class ForceIntegral {
 public:
   /// @param shapes those of the mesh of @p space
   /// @throws BadInput where f is not finite, on all processes of the space
-  ForceIntegral(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
+  ForceIntegral(const RingSpace& space, const Scene& scene, const RadialShapesOfMesh& shapes);
 
   /// The rule along z by which the error bound integrates over a cell, exactly: Gauss' rule with
   /// degree + 1 points or, for an expression, two more, Q_h being of a higher degree.
@@ -59,7 +59,7 @@ public:
     displacements, ///< int Q_h d_r phi_i dr dz
     potentials     ///< int Q_h d_z psi_i / r dr dz
   };
-  void add_load(const RingSpace& space, RadialShapesOfMesh& shapes, TestSpace kind,
+  void add_load(const RingSpace& space, const RadialShapesOfMesh& shapes, TestSpace kind,
                 const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;
 
   /// delta, of the cells of all processes; 0 for a number.
@@ -72,11 +72,12 @@ public:
   double scan_width() const { return width; }
 
 private:
-  void integrate_uniform(const RingSpace& space, double f, RadialShapesOfMesh& shapes);
-  void integrate_expression(const RingSpace& space, const Scene& scene, RadialShapesOfMesh& shapes);
+  void integrate_uniform(const RingSpace& space, double f, const RadialShapesOfMesh& shapes);
+  void integrate_expression(const RingSpace& space, const Scene& scene,
+                            const RadialShapesOfMesh& shapes);
   void integrate_sector(const Scene& scene, const std::vector<double>& mesh_radii,
                         const std::vector<dealii::DoFHandler<2>::active_cell_iterator>& cells,
-                        RadialShapesOfMesh& shapes);
+                        const RadialShapesOfMesh& shapes);
   unsigned int n_radii(unsigned int cell) const {
     return values[cell].size() / (uniform ? 1 : angular.size());
   }
@@ -94,6 +95,6 @@ private:
 
 /// The load of Q_h on displacements, with the constraints of the space applied.
 FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
-                          RadialShapesOfMesh& shapes);
+                          const RadialShapesOfMesh& shapes);
 
 } // namespace rollwave

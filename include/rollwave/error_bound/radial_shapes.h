@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rollwave/mesh/ring_space.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/polynomial.h>
@@ -81,20 +82,17 @@ struct RadialShapes {
                  std::vector<double>& integrals) const;
 };
 
-/// The shapes of all radial intervals of a mesh, which are few: each is made when first asked for.
+/// The shapes of all radial intervals of a mesh, which are few.
 class RadialShapesOfMesh {
 public:
   /// By Gauss' rules that are exact or, with the factor 1/r, accurate to 1e-13.
-  RadialShapesOfMesh(const Scene& scene, unsigned int degree);
+  RadialShapesOfMesh(const RingSpace& space, const Scene& scene);
 
-  const RadialShapes& on(double begin, double end);
+  /// Those of a cell of this process between two radii.
+  const RadialShapes& on(double begin, double end) const { return of_interval.at({begin, end}); }
 
 private:
-  RadialShapes make(double begin, double end) const;
-
-  const Scene scene;
-  std::vector<dealii::Polynomials::Polynomial<double>> lagrange;
-  std::map<std::pair<double, double>, RadialShapes> known;
+  std::map<std::pair<double, double>, RadialShapes> of_interval;
 };
 
 } // namespace rollwave

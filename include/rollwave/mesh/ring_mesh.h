@@ -3,6 +3,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <memory>
+#include <tuple>
 
 namespace rollwave {
 
@@ -26,6 +27,11 @@ struct MeshOptions {
   unsigned int angular_cells = 200;
   unsigned int global_refinements = 0;
   unsigned int most_unknowns = 5000000;
+
+  auto members() const {
+    return std::tie(degree, radial_cells, angular_cells, global_refinements, most_unknowns);
+  }
+  bool operator==(const MeshOptions& other) const { return members() == other.members(); }
 };
 
 /// The number of unknowns of the first mesh; nodes on the hub are not unknowns.
@@ -41,14 +47,11 @@ void check_mesh_size(const MeshOptions& mesh);
  * differ in length: a zone that ended inside of cells would cut the contact short at another place
  * on every mesh.
  *
- * On several processes each has a part of it: the mesh is p4est's if it @p may_be_refined,
- * otherwise it has columns of cells along z, on which assembly and multigrid are faster.
+ * On several processes each has a part of the refined mesh, and the coarse one as a whole.
  *
  * @throws BadValue as check_mesh_size(), NotEnoughMemory.
  */
-std::unique_ptr<dealii::Triangulation<2>> make_ring_mesh(const Scene& scene,
-                                                         const MeshOptions& mesh,
-                                                         bool may_be_refined,
-                                                         MPI_Comm communicator);
+std::unique_ptr<dealii::Triangulation<2>>
+make_ring_mesh(const Scene& scene, const MeshOptions& mesh, MPI_Comm communicator);
 
 } // namespace rollwave

@@ -78,8 +78,8 @@ public:
   /// The values of a field at the surface nodes, on every process.
   std::vector<double> surface_values(const FieldVector& field) const;
 
-  /// The order of dissect(), computed when it is first asked for; on one process only.
-  const std::vector<dealii::types::global_dof_index>& elimination_order() const;
+  /// The order of dissect(); on one process only.
+  const std::vector<dealii::types::global_dof_index>& elimination_order() const { return order; }
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
   /// next to them, and what constraints tie these to.
@@ -101,8 +101,8 @@ private:
   unsigned int unknowns;
   std::vector<SurfaceNode> surface;
   std::vector<SurfaceEdge> edges_of_surface;
-  std::map<double, unsigned int> edge_from; ///< by the angle on the mesh where it begins
-  mutable std::vector<dealii::types::global_dof_index> order; ///< empty until it is asked for
+  std::map<double, unsigned int> edge_from;           ///< by the angle on the mesh where it begins
+  std::vector<dealii::types::global_dof_index> order; ///< of elimination
 };
 
 /// The degrees of freedom of a cell with elements of degree p by their places: that of node (i, j)

@@ -1,12 +1,15 @@
 #pragma once
 
+#include "rollwave/error_bound/dual_system.h"
 #include "rollwave/error_bound/error_bound.h"
-#include "rollwave/run/discretisation.h"
+#include "rollwave/run/mesh.h"
 #include "rollwave/run/progress.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
+#include "rollwave/run/system.h"
 #include "rollwave/scene/scene.h"
 
+#include <memory>
 #include <optional>
 
 namespace rollwave {
@@ -14,7 +17,7 @@ namespace rollwave {
 /// A solved scene with its field.
 struct Solution {
   Scene scene; ///< with the distance that a given load needs
-  Discretisation mesh;
+  Mesh mesh;
   FieldVector displacement; ///< u_h
   std::optional<Certificate> certificate;
   Result result;
@@ -22,9 +25,9 @@ struct Solution {
   const RingSpace& space() const { return *mesh.space; }
 };
 
-/// Checks the options that need no mesh. @throws BadInput for a mesh that is too large, or a kind
-/// of solver that does not work on @p n_processes.
-void check_simulation(const RunOptions& options, unsigned int n_processes);
+/// Checks what needs no mesh. @throws BadValue for a mesh that is too large or has too many contact
+/// nodes
+void check_simulation(const Scene& scene, const RunOptions& options);
 
 /**
  * Solves @p scene on the mesh and by the methods of @p options; with adaptive cycles: solve,
@@ -37,16 +40,24 @@ void check_simulation(const RunOptions& options, unsigned int n_processes);
  * On several processes all call it with their @p communicator, and get the same Result; mesh and
  * field are shared among them.
  *
- * @throws BadInput for a mesh or force that cannot be used, NotSolved when a solver fails,
+ * @throws BadInput as check_simulation() and for a force that cannot be used, NotSolved when memory
+ *         is short or a method fails,
  *         Interrupted before the first mesh is solved.
  */
 Solution simulate(const Scene& scene, const RunOptions& options,
                   MPI_Comm communicator = MPI_COMM_SELF, const Progress& progress = {});
 
-/// The same on a given mesh, which other scenes with the same mesh options and radii may have used.
-/// Only data that depend on speed, force or zone are computed again, if these differ.
-/// @param statistics work and seconds of making the mesh, if they are to be part of the result
-Solution simulate(Discretisation mesh, const Scene& scene, const RunOptions& options,
-                  RunStatistics statistics = RunStatistics(), const Progress& progress = {});
+/// What runs on one mesh, at one speed and under one force share.
+struct SharedObjects {
+  System system;
+  std::unique_ptr<const Load> load;       ///< nullptr without force
+  std::unique_ptr<const DualSystem> dual; ///< made by the first run that needs it
+};
+
+/// Solves a scene without refinement on objects that belong to the same radii, mesh options, speed
+/// and force, and whose zone contains that of the scene.
+/// @param statistics work and seconds of making the objects, if they are to be part of the result
+Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
+                         const RunOptions& options, RunStatistics statistics);
 
 } // namespace rollwave

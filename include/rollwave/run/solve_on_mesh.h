@@ -1,9 +1,9 @@
 #pragma once
 
 #include "rollwave/contact/contact_problem.h"
-#include "rollwave/run/discretisation.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
+#include "rollwave/run/system.h"
 
 #include <map>
 #include <optional>
@@ -53,17 +53,17 @@ struct MeshSolution {
 /// The contact pressure of a solution.
 PressureProfile pressure_profile(const MeshSolution& solution);
 
-/// Solves @p scene by the methods of @p options, beginning with the contact pressures @p start.
-/// @param candidates the contact nodes of all scenes on the space
-/// @param cache that of the same space
-/// @throws BadInput where no node lies in the zone or the force is not finite, NotSolved when a
-/// solver fails or a number overflows double precision.
-MeshSolution solve_on_mesh(const Scene& scene, const RunOptions& options,
-                           const ContactBoundary& candidates, const PressureProfile& start,
-                           MeshCache& cache, RunStatistics& statistics,
-                           const ContactObserver& step_ended = {});
+/// Solves @p scene, beginning with the contact pressures @p start.
+/// @param system of the scene's speed, with the nodes of its zone
+/// @param load of the scene's force, nullptr without
+/// @throws BadInput where no node lies in the zone, NotSolved when a method fails or a number
+/// overflows double precision.
+MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& scene,
+                           const ContactOptions& options, const PressureProfile& start,
+                           RunStatistics& statistics, const ContactObserver& step_ended = {});
 
-/// The certificate of a solution on the mesh of @p cache. @throws NotSolved as StressFunction
-Certificate certify(const MeshSolution& solution, MeshCache& cache, RunStatistics& statistics);
+/// The equations of the contact nodes in the zone of a solution.
+ContactEquations contact_equations(const System& system, const Load* load,
+                                   const ContactBoundary& boundary);
 
 } // namespace rollwave

@@ -40,30 +40,28 @@ struct LowerTriplets {
 class CholmodFactor {
 public:
   explicit CholmodFactor(int n);
+  CholmodFactor(CholmodFactor&& other) noexcept;
   ~CholmodFactor();
 
-  /// Sums up the triplets to K. Only the first K is analysed, and later ones must have its pattern.
-  /// @throws NotSolved when memory is short.
+  /// Sums up the triplets to K and analyses it. @throws NotSolved when memory is short.
   void set_matrix(const LowerTriplets& triplets);
 
   /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
   void factorise();
 
-  int size() const { return n; }
-
   /// K x
   std::vector<double> multiply(std::vector<double> x) const;
 
   /// L^-1 b
-  std::vector<double> forward(std::vector<double> b);
+  std::vector<double> forward(std::vector<double> b) const;
 
   /// L^-T y
-  std::vector<double> backward(std::vector<double> y);
+  std::vector<double> backward(std::vector<double> y) const;
 
   /// L_cc, m x m, with zeros above the diagonal.
   dealii::FullMatrix<double> trailing_factor(int m) const;
 
-  /// Entries of L, zeros within supernodes included; 0 before the analysis.
+  /// Entries of L, zeros within supernodes included, after set_matrix().
   double n_factor_entries() const;
 
 private:

@@ -22,7 +22,7 @@ struct RunPlan {
 /// `Study/Scenes` where there are some.
 /// @throws BadInput when any setting is refused, or `Study/Published steps` does not have one entry
 ///         for each run
-std::vector<RunPlan> plan_runs(const Parameters& parameters, unsigned int n_processes);
+std::vector<RunPlan> plan_runs(const Parameters& parameters);
 
 /// The label of an axis: a key with its symbol and unit, such as "distance c [m]".
 std::string axis_label(const Setting& setting, const Units& units);

@@ -9,7 +9,7 @@
 namespace rollwave {
 
 /// The runs of a study, not yet solved. @throws BadInput as plan_runs()
-Study plan_study(const Parameters& parameters, MPI_Comm communicator = MPI_COMM_SELF);
+Study plan_study(const Parameters& parameters);
 
 /**
  * Makes the runs of a planned @p study and prints a line on @p out when a run has ended. If a run

@@ -7,9 +7,8 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <map>
 #include <optional>
-#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,25 +29,27 @@ public:
   StudyRun solve(unsigned int number);
 
 private:
-  using Settings = std::map<std::string, std::string>;
-
-  void solve(const RunPlan& plan, StudyRun& run);
+  void solve(unsigned int number, StudyRun& run);
   Solution solve_timed(const RunPlan& plan);
-  Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
-  const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
-  std::optional<double> exact_distance(const RunPlan& plan, const Scene& scene);
+  Solution solve_shared(unsigned int number, StudyRun& run);
+  std::pair<double, double> widest_zone(unsigned int number) const;
+  const std::optional<ExactSolution>& exact_solution(const Parameters& parameters,
+                                                     const Scene& scene);
+  std::optional<double> exact_distance(const Parameters& parameters, const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
   const std::filesystem::path directory;
   const Progress progress;
   const MPI_Comm communicator;
-  std::map<Settings, std::pair<double, double>> widest_zone; ///< where several runs share a mesh
-  std::optional<Settings> last_mesh; ///< that of solution, where it is shared
-  std::optional<Solution> solution;
-  /// By the settings of the scene and the distance, which depends on the mesh if a load is given.
-  std::map<std::pair<Settings, double>, std::optional<ExactSolution>> exact_solutions;
-  std::map<Settings, std::optional<double>> exact_distances; ///< by the settings of the scene
+  std::optional<Solution> solution;    ///< of the last run
+  std::optional<SharedObjects> shared; ///< on its mesh
+  std::optional<unsigned int> last;    ///< the number of the run that has left both
+
+  /// The scene of a run, with the distance, which depends on the mesh if a load is given.
+  using SceneKey = std::tuple<CylinderOptions, RoadOptions, MaterialOptions, double>;
+  std::vector<std::pair<SceneKey, std::optional<ExactSolution>>> exact_solutions;
+  std::vector<std::pair<SceneKey, std::optional<double>>> exact_distances;
 };
 
 } // namespace rollwave

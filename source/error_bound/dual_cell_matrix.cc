@@ -1,4 +1,4 @@
-#include "rollwave/error_bound/dual_matrices.h"
+#include "rollwave/error_bound/dual_cell_matrix.h"
 
 #include "rollwave/mesh/line_elements.h"
 
@@ -50,20 +50,13 @@ void tensor_matrix(const ShapeProducts& radial, const ShapeProducts& angular, do
 
 } // namespace
 
-CellMatrices dual_matrices(const RingSpace& space, RadialShapesOfMesh& shapes) {
-  return [&](const AddCellMatrix& add) {
-    const auto& element = space.dof_handler().get_fe();
-    const ShapeProducts angular = angular_products(element.degree);
-    FullMatrix<double> cell_matrix(element.n_dofs_per_cell());
-    LexicographicDofs dofs(space.dof_handler());
-    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-      if (!cell->is_locally_owned())
-        continue;
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      tensor_matrix(shapes.on(low[0], high[0]).products, angular, high[1] - low[1], cell_matrix);
-      add(dofs.of(cell), cell_matrix);
-    }
-  };
+DualCellMatrix::DualCellMatrix(const RadialShapesOfMesh& shapes, unsigned int degree)
+    : shapes(shapes), angular(angular_products(degree)), matrix((degree + 1) * (degree + 1)) {}
+
+const FullMatrix<double>& DualCellMatrix::on(const DoFHandler<2>::active_cell_iterator& cell) {
+  const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+  tensor_matrix(shapes.on(low[0], high[0]).products, angular, high[1] - low[1], matrix);
+  return matrix;
 }
 
 } // namespace rollwave

@@ -1,11 +1,9 @@
-#include "rollwave/error_bound/stress_function.h"
+#include "rollwave/error_bound/dual_system.h"
 
 #include "rollwave/base/run_statistics.h"
-#include "rollwave/error_bound/dual_matrices.h"
+#include "rollwave/error_bound/dual_cell_matrix.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/solver/amg_cg.h"
-#include "rollwave/solver/sparse_cholesky.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -168,33 +166,40 @@ AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& 
 
 } // namespace
 
-StressFunction::StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
-                               RunStatistics& statistics)
-    : space(space), speed(scene.angular_velocity),
-      radial(scene, space.dof_handler().get_fe().degree) {
-  if (kind == SolverKind::iterative)
-    solver = std::make_unique<AmgCg>(space);
-  else
-    solver = std::make_unique<SparseCholesky>(space);
+DualSystem::DualSystem(const RingSpace& space, const Scene& scene, RunStatistics& statistics)
+    : space(space), radial(space, scene) {
   const std::vector<EdgePressure> no_pressures(space.surface_edges().size());
-  solver->set_matrix(make_constraints(space, scene, no_pressures), dual_matrices(space, radial),
-                     statistics);
+  const auto constraints = make_constraints(space, scene, no_pressures);
+  const auto matrix = make_system_matrix(space, constraints);
+  DualCellMatrix cell_matrix(radial, space.dof_handler().get_fe().degree);
+  LexicographicDofs dofs(space.dof_handler());
+  for (const auto& cell : space.dof_handler().active_cell_iterators())
+    if (cell->is_locally_owned())
+      matrix->add(dofs.of(cell), cell_matrix.on(cell));
+  factor = matrix->factorise(statistics);
 }
 
-FieldVector StressFunction::solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                                  const ForceIntegral* force, RunStatistics& statistics) {
+FieldVector DualSystem::stress_function(const Scene& scene,
+                                        const std::vector<EdgePressure>& pressures,
+                                        const ForceIntegral* force,
+                                        RunStatistics& statistics) const {
   const auto constraints = make_constraints(space, scene, pressures);
+  const auto is_given = [&](auto dof) { return constraints.is_inhomogeneously_constrained(dof); };
   const Vector<double> no_load(space.dof_handler().get_fe().n_dofs_per_cell());
+  DualCellMatrix cell_matrix(radial, space.dof_handler().get_fe().degree);
+  LexicographicDofs dofs_of_cells(space.dof_handler());
   FieldVector load = space.make_field();
-  dual_matrices(space, radial)([&](const auto& dofs, const FullMatrix<double>& matrix) {
-    if (std::any_of(dofs.begin(), dofs.end(),
-                    [&](auto dof) { return constraints.is_inhomogeneously_constrained(dof); }))
-      constraints.distribute_local_to_global(no_load, dofs, load, matrix);
-  });
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    const auto& dofs = dofs_of_cells.of(cell);
+    if (std::any_of(dofs.begin(), dofs.end(), is_given))
+      constraints.distribute_local_to_global(no_load, dofs, load, cell_matrix.on(cell));
+  }
   if (force && !force->is_uniform()) // a function of r does no work on periodic potentials
     force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
-  FieldVector potential = solver->solve(load, statistics);
+  FieldVector potential = factor->solve_interior(load, statistics);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;

@@ -1,7 +1,8 @@
-#include "rollwave/mesh/assembly.h"
+#include "rollwave/solver/assembly.h"
 
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/solver/sparse_factor.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -78,27 +79,25 @@ FullMatrix<double> stiffness_of_cell(const FEValues<2>& values, const Scene& sce
 
 } // namespace
 
-CellMatrices stiffness_matrices(const RingSpace& space, const Scene& scene) {
-  return [&space, &scene](const AddCellMatrix& add) {
-    RulesOfCells rules(space);
-    // Cells of one radial interval and one length along z have the same matrix, made once.
-    std::map<std::tuple<double, double, double>, FullMatrix<double>> known;
-    constexpr std::size_t most_known = 1000; // 52 MB at degree 8
-    std::vector<types::global_dof_index> dofs(space.dof_handler().get_fe().n_dofs_per_cell());
-    for (const auto& cell : space.dof_handler().active_cell_iterators()) {
-      if (!cell->is_locally_owned())
-        continue;
-      if (known.size() > most_known)
-        known.clear();
-      const Point<2> low = cell->vertex(0), high = cell->vertex(3);
-      const auto [entry, is_new] =
-          known.try_emplace({low[0], high[0], without_round_off(high[1] - low[1])});
-      if (is_new)
-        entry->second = stiffness_of_cell(rules.reinit(cell), scene);
-      cell->get_dof_indices(dofs);
-      add(dofs, entry->second);
-    }
-  };
+void assemble_stiffness(const RingSpace& space, const Scene& scene, SystemMatrix& matrix) {
+  RulesOfCells rules(space);
+  // Cells of one radial interval and one length along z have the same matrix, made once.
+  std::map<std::tuple<double, double, double>, FullMatrix<double>> known;
+  constexpr std::size_t most_known = 1000; // 52 MB at degree 8
+  std::vector<types::global_dof_index> dofs(space.dof_handler().get_fe().n_dofs_per_cell());
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
+    if (known.size() > most_known)
+      known.clear();
+    const Point<2> low = cell->vertex(0), high = cell->vertex(3);
+    const auto [entry, is_new] =
+        known.try_emplace({low[0], high[0], without_round_off(high[1] - low[1])});
+    if (is_new)
+      entry->second = stiffness_of_cell(rules.reinit(cell), scene);
+    cell->get_dof_indices(dofs);
+    matrix.add(dofs, entry->second);
+  }
 }
 
 } // namespace rollwave

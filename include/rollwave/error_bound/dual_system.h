@@ -4,8 +4,7 @@
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
-#include "rollwave/solver/choose_solver.h"
-#include "rollwave/solver/spd_solver.h"
+#include "rollwave/solver/sparse_factor.h"
 
 #include <memory>
 #include <vector>
@@ -16,7 +15,8 @@ struct Scene;
 class RunStatistics;
 
 /**
- * The potential psi of a flux tau that balances the force and a contact pressure lambda,
+ * The linear problem for the stress function psi, the potential of a flux tau that balances the
+ * force and a contact pressure lambda,
  *
  *     r tau_z = psi_r,   r tau_r = Q - psi_z,   Q(r, z) = int_r^b rho f drho,   psi_z = b lambda on
  *     r = b,
@@ -29,31 +29,24 @@ class RunStatistics;
  * psi is prescribed on r = b up to a constant, free on the hub, and grows by b int lambda dz in a
  * period.
  */
-class StressFunction {
+class DualSystem {
 public:
-  /// Makes the matrix, which depends on the speed of the scene alone, and prepares to solve with
-  /// it.
-  /// @param kind direct or iterative
-  /// @throws NotSolved when memory is short
-  StressFunction(const RingSpace& space, const Scene& scene, SolverKind kind,
-                 RunStatistics& statistics);
+  /// Factorises the matrix, which depends on the space and the speed of the scene alone.
+  /// @throws NotEnoughMemory, NotSolved
+  DualSystem(const RingSpace& space, const Scene& scene, RunStatistics& statistics);
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
   /// @param pressures one for each of RingSpace::surface_edges()
   /// @param force that of the scene, nullptr without
-  /// @throws NotSolved when memory is short or an iteration fails
-  FieldVector solve(const Scene& scene, const std::vector<EdgePressure>& pressures,
-                    const ForceIntegral* force, RunStatistics& statistics);
+  FieldVector stress_function(const Scene& scene, const std::vector<EdgePressure>& pressures,
+                              const ForceIntegral* force, RunStatistics& statistics) const;
 
-  double angular_velocity() const { return speed; }
-
-  RadialShapesOfMesh& shapes() { return radial; }
+  const RadialShapesOfMesh& shapes() const { return radial; }
 
 private:
   const RingSpace& space;
-  const double speed;
-  RadialShapesOfMesh radial;
-  std::unique_ptr<SpdSolver> solver;
+  const RadialShapesOfMesh radial;
+  std::unique_ptr<const SparseFactor> factor;
 };
 
 } // namespace rollwave

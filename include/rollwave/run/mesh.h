@@ -1,0 +1,37 @@
+#pragma once
+
+#include "rollwave/mesh/ring_space.h"
+#include "rollwave/run/run_options.h"
+
+#include <deal.II/grid/tria.h>
+
+#include <memory>
+#include <vector>
+
+namespace rollwave {
+
+class RunStatistics;
+
+/// A mesh and its space. They depend on the radii, the mesh options, and the zone of contact if
+/// that is given.
+struct Mesh {
+  std::unique_ptr<dealii::Triangulation<2>> triangulation;
+  std::unique_ptr<const RingSpace> space;
+
+  MPI_Comm communicator() const { return space->communicator(); }
+};
+
+/// The first mesh of @p options. @throws BadValue, NotEnoughMemory as make_ring_mesh()
+Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
+               RunStatistics& statistics);
+
+/// Refines a mesh where @p indicators of the cells are large, as refine_mesh(), and makes its space
+/// anew. Returns false, and changes nothing, where the mesh would get too large or no cell is
+/// marked.
+bool refine(Mesh& mesh, const std::vector<double>& indicators, const Scene& scene,
+            const RunOptions& options, RunStatistics& statistics);
+
+/// The most cells that MeshOptions::most_unknowns allows.
+double most_cells(const RunOptions& options);
+
+} // namespace rollwave
