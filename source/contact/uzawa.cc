@@ -14,25 +14,46 @@ using namespace dealii;
 
 namespace {
 
-[[noreturn]] void give_up(ContactLinearSolver& solver, const ContactProblem& problem,
-                          const ContactOptions& options, double rho, std::size_t steps,
-                          double smallest) {
-  // Below the first of these the method converges from any start; above the second it diverges even
-  // from near the solution.
-  const ContactSolution exact = active_set(solver, problem, options.most_steps);
-  const double safe =
-                   2 / largest_compliance(solver, problem, std::vector<bool>(problem.size(), true)),
-               largest = 2 / largest_compliance(solver, problem, exact.active);
-  std::ostringstream message;
-  message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
-          << " with rho = " << rho / problem.unit << ": the smallest residual of " << steps
-          << " steps is " << smallest << ", wanted " << options.tolerance << "; ";
-  if (rho < safe)
-    message << "raise Contact/Tolerance above round-off";
-  else
-    message << "lower Contact/Rho: the largest rho that can converge is " << largest / problem.unit
-            << ", and every rho below " << safe / problem.unit << " does";
-  throw NotSolved(message.str());
+/// @param unit the problem's unit of displacement over pressure
+std::string advice_on_rho(const StepLength& length, double unit) {
+  std::ostringstream text;
+  text << "lower Contact/Rho: ";
+  if (length.largest)
+    text << "the largest rho that can converge is " << *length.largest / unit << ", and ";
+  text << "every rho below " << length.safe / unit << " does";
+  return text.str();
+}
+
+/// The step length of @p options. Its limits are those of the nodes in contact at the solution,
+/// which the active set method finds. @throws NotSolved if it diverges.
+StepLength choose_step_length(ContactLinearSolver& solver, const ContactProblem& problem,
+                              const ContactOptions& options, const Vector<double>& start) {
+  constexpr unsigned int no_limit = std::numeric_limits<unsigned int>::max();
+  const std::vector<bool> all(problem.size(), true),
+      active = active_set(solver, problem, no_limit, start).active;
+  const double safe = 2 / largest_compliance(solver, problem, all);
+  StepLength length = {options.rho ? *options.rho * problem.unit : 0.9 * safe, safe, {}};
+  if (std::find(active.begin(), active.end(), true) != active.end())
+    length.largest = 2 / largest_compliance(solver, problem, active);
+  if (length.largest && length.rho >= *length.largest) {
+    std::ostringstream text;
+    text << "Uzawa's method diverges with rho = " << length.rho / problem.unit << "; "
+         << advice_on_rho(length, problem.unit);
+    throw NotSolved(text.str());
+  }
+  return length;
+}
+
+/// On an iteration whose residual has stopped falling.
+std::string no_progress_text(const ContactOptions& options, const StepLength& length, double unit,
+                             std::size_t steps, double smallest) {
+  const bool is_safe = length.rho < length.safe;
+  std::ostringstream text;
+  text << "Uzawa's method " << (is_safe ? "stagnates" : "diverges")
+       << " with rho = " << length.rho / unit << ": the smallest residual of " << steps
+       << " steps is " << smallest << ", wanted " << options.tolerance << "; "
+       << (is_safe ? "raise Contact/Tolerance above round-off" : advice_on_rho(length, unit));
+  return text.str();
 }
 
 /// @param rho in the user's unit
@@ -41,9 +62,25 @@ std::string too_few_steps_text(const ContactOptions& options, double rho,
   std::ostringstream message;
   message << "Uzawa's method has not reached the tolerance " << options.tolerance << " after "
           << options.most_steps << " steps with rho = " << rho << ": the residual is "
-          << history.back().residual << "; raise Contact/Most steps"
+          << *history.back().residual << "; raise Contact/Most steps"
           << (options.rho ? ", or let Contact/Rho be auto" : "");
   return message.str();
+}
+
+/// Puts the pressures @p start on the nodes, none if it has no entries. Returns p = -lambda.
+Vector<double> begin_with(const ContactProblem& problem, const Vector<double>& start,
+                          ContactSolution& solution) {
+  const unsigned int n = problem.size();
+  Vector<double> p(n);
+  if (start.size() > 0)
+    p.equ(-1, start);
+  solution.active.resize(n);
+  for (unsigned int i = 0; i < n; ++i)
+    solution.active[i] = p(i) < 0;
+  solution.state.displacement.reinit(n);
+  solution.state.force = problem.forces(p);
+  solution.state.force *= -1;
+  return p;
 }
 
 /// p <- min(0, p - rho (u - phi)) for p = -lambda, with the nodal forces of it. The residual of the
@@ -101,25 +138,13 @@ double largest_compliance(ContactLinearSolver& solver, const ContactProblem& pro
 ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem,
                       const ContactOptions& options, const Vector<double>& start,
                       const ContactObserver& step_ended) {
-  const unsigned int n = problem.size();
-  const std::vector<bool> none(n, false);
-  const double rho = options.rho
-                         ? *options.rho * problem.unit
-                         : 1.8 / largest_compliance(solver, problem, std::vector<bool>(n, true));
-
+  const std::vector<bool> none(problem.size(), false);
+  const StepLength length = choose_step_length(solver, problem, options, start);
+  const double rho = length.rho;
   ContactSolution solution;
-  solution.rho = rho;
-  solution.active.assign(n, false);
-  auto& [displacement, force] = solution.state;
-  displacement.reinit(n);
-  force.reinit(n);
-  Vector<double> p(n);
-  if (start.size() > 0) {
-    p.equ(-1, start);
-    force = problem.forces(start);
-    for (unsigned int i = 0; i < n; ++i)
-      solution.active[i] = start(i) > 0;
-  }
+  solution.step_length = length;
+  Vector<double> p = begin_with(problem, start, solution);
+  const Vector<double>& displacement = solution.state.displacement;
   double accuracy = loose_accuracy;
   double residual = solver.solve(none, solution.state, accuracy);
 
@@ -128,7 +153,7 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
   while (solution.history.size() < options.most_steps) {
     Vector<double> change = displacement;
     ContactStep step = project(problem, rho, p, solution);
-    const double violation = step.residual;
+    const double violation = *step.residual;
     if (violation > 0)
       residual = solver.solve(none, solution.state, accuracy);
     change -= displacement;
@@ -139,22 +164,24 @@ ContactSolution uzawa(ContactLinearSolver& solver, const ContactProblem& problem
     solution.history.push_back(step);
     if (step_ended)
       step_ended(solution.history);
-    // A scene without contact is solved when the first projection leaves p at zero.
-    if (measured <= options.tolerance * size) {
-      solution.gap_accuracy = std::max(options.tolerance * size, measured);
+    // A scene without contact is solved when the first projection leaves p at zero. Short steps
+    // change u by little, so that the contact conditions have to hold as well.
+    if (measured <= options.tolerance * size && violation <= std::sqrt(options.tolerance) * size) {
+      solution.gap_accuracy = std::max(options.tolerance * size, violation);
       if (residual > final_accuracy)
         solver.solve(none, solution.state, final_accuracy);
       return solution;
     }
     // The linear problems are solved 100 times more accurately than the residual of the step.
-    accuracy = std::min(step.residual / 100, loose_accuracy);
+    accuracy = std::min(*step.residual / 100, loose_accuracy);
 
     // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
-    if (step.residual < smallest) {
-      smallest = step.residual;
+    if (*step.residual < smallest) {
+      smallest = *step.residual;
       steps_without_progress = 0;
-    } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
-      give_up(solver, problem, options, rho, solution.history.size(), smallest);
+    } else if (++steps_without_progress >= 200 || !std::isfinite(*step.residual))
+      throw NotSolved(
+          no_progress_text(options, length, problem.unit, solution.history.size(), smallest));
   }
   throw NotSolved(too_few_steps_text(options, rho / problem.unit, solution.history));
 }

@@ -38,7 +38,7 @@ Bounds bound_load(const RunOptions& options, Discretisation& mesh, const MeshSol
   };
   const double c = solution.scene.road.distance;
   const double step =
-      best_step(solution.scene, error, solution.resultants.stiffness.work_conjugate);
+      best_step(solution.scene, error, *solution.resultants.stiffness->work_conjugate);
   const Bounds near = energy(c - step), far = energy(c + step);
   return {std::max(0., (error.lower_bound - far.upper) / step),
           (near.upper - error.lower_bound) / step};
@@ -52,7 +52,7 @@ std::optional<Bounds> bound_distance(const RunOptions& options, Discretisation& 
   };
   const double c = solution.scene.road.distance, load = solution.scene.load->value;
   for (double step =
-           1.5 * best_step(solution.scene, error, solution.resultants.stiffness.work_conjugate);
+           1.5 * best_step(solution.scene, error, *solution.resultants.stiffness->work_conjugate);
        step < 0.01 * c; step *= 2) {
     const Bounds near = energy(c - step), far = energy(c + step);
     if ((error.upper_bound - far.lower) / step <= load &&

@@ -79,22 +79,12 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if a work-conjugate load is given that @p n_meshes do not resolve: finer ones do not
-/// either.
-bool is_load_beyond_meshes(const MeshSolution& solution, unsigned int n_meshes) {
-  constexpr unsigned int enough = 60;
-  const auto& load = solution.scene.load;
-  return load && load->kind == LoadKind::work_conjugate && n_meshes >= enough &&
-         reaches_tangent(solution.problem, solution.contact.active);
-}
-
 /// True if no further mesh is needed or possible: the wanted error is reached, the cycles or the
-/// room are used up, the certificate has failed, or finer meshes do not resolve the load either.
-bool is_last(const RunOptions& options, const Discretisation& mesh, const MeshSolution& solution,
+/// room are used up, or the certificate has failed.
+bool is_last(const RunOptions& options, const Discretisation& mesh,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || is_load_beyond_meshes(solution, n_meshes) ||
-         n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
+  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
          !has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options));
 }
 
@@ -111,15 +101,8 @@ void add_load_bounds(const RunOptions& options, Discretisation& mesh, const Mesh
                              "least energy need not be convex in the distance");
   else if (!load)
     result.load_bounds = bound_load(options, mesh, solution, error, statistics);
-  else if (load->kind == LoadKind::work_conjugate) {
-    result.distance_bounds = bound_distance(options, mesh, solution, error, statistics);
-    if (!result.distance_bounds)
-      result.remarks.push_back("the distance has no bounds: those of the energy are too wide on "
-                               "this mesh; refine it");
-  } else
-    result.remarks.push_back(
-        "there are no bounds of G or c for a given vertical or total load; give "
-        "Road/Distance for bounds of G, or Road/Load kind = work-conjugate");
+  else
+    result.remarks.push_back("there are no bounds of G for a given load; give Road/Distance");
 }
 
 /// Adds the targets that were not reached, and the remarks.
@@ -127,8 +110,7 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation&
                                 const MeshSolution& solution,
                                 const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
-  if (wants_error && certificate && !is_reached(options, certificate) &&
-      !is_load_beyond_meshes(solution, result.cycles.size()))
+  if (wants_error && certificate && !is_reached(options, certificate))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
@@ -173,7 +155,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     std::optional<Certificate> certificate = certify_solution(options, mesh, solution, statistics);
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
-    const bool ends = is_last(options, mesh, solution, certificate, cycles.size());
+    const bool ends = is_last(options, mesh, certificate, cycles.size());
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.shortfalls.push_back(interrupted_text(cycles.size()));
@@ -187,6 +169,8 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
     }
     if (progress.mesh_solved && (goes_on || cycles.size() > 1))
       progress.mesh_solved(cycles.size(), cycles.back());
+    if (!goes_on && solution.load_refusal)
+      throw BadValue("Road", "Load", *solution.load_refusal);
     if (!goes_on)
       return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
                     is_stopped, std::move(statistics));
