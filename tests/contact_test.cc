@@ -187,7 +187,7 @@ TEST(Uzawa, LeavesNoMoreThanItsToleranceExplains) {
     Prepared scene(with(paper.parameters(), {"Mesh/Radial cells=3", "Mesh/Angular cells=36"}));
     const std::vector<bool> all(scene.problem.size(), true);
     const double safe = 2 / largest_compliance(scene.solver, scene.problem, all);
-    for (const double rho : {1e-3 * safe, 0.01 * safe, 0.1 * safe, 0.5 * safe, 0.97 * safe})
+    for (const double rho : {0.01 * safe, 0.1 * safe, 0.5 * safe, 0.97 * safe})
       for (const UzawaStop stop : {UzawaStop::gap, UzawaStop::change})
         for (const double tolerance : {0.1, 1e-2, 1e-4}) {
           SCOPED_TRACE("figure " + std::to_string(paper.figure) + ", rho = " + shortest_text(rho) +

@@ -245,9 +245,9 @@ TEST(Road, StiffnessIsSmoothUpToTheHub) {
   const Parameters parameters = parameters_of(
       {"Road/Curvature=1", "Road/Distance=0.501", "Mesh/Radial cells=8", "Mesh/Angular cells=108"});
   const Loads stiffness = *simulate(make_scene(parameters), parameters).result.contact.stiffness;
-  EXPECT_NEAR(stiffness.total / 3.43805, 1, 2e-3);
+  EXPECT_NEAR(stiffness.total / 3.43805, 1, 4e-3);
   EXPECT_NEAR(stiffness.vertical / 3.01574, 1, 2e-3);
-  EXPECT_NEAR(*stiffness.work_conjugate / 4.75153, 1, 2e-3);
+  EXPECT_NEAR(*stiffness.work_conjugate / 4.75153, 1, 1e-2);
 }
 
 } // namespace
