@@ -384,8 +384,8 @@ TEST(Bounds, EncloseTheExactLoad) {
     EXPECT_LT(bounds.lower, bounds.upper);
     EXPECT_LT(bounds.upper - bounds.lower, 0.01 * bounds.upper);
     if (const auto exact = find_exact_solution(scene)) {
-      EXPECT_LT(bounds.lower, exact->loads.work_conjugate) << scene_key;
-      EXPECT_GT(bounds.upper, exact->loads.work_conjugate) << scene_key;
+      EXPECT_LT(bounds.lower, *exact->loads.work_conjugate) << scene_key;
+      EXPECT_GT(bounds.upper, *exact->loads.work_conjugate) << scene_key;
     }
   }
   // On a convex road the energy need not be convex in the distance.

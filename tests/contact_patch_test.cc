@@ -149,7 +149,7 @@ TEST(ContactPatch, ResultantsAreSumsOverTheNodes) {
   const auto patch = patch_of(left, right, 0.5, 0.5, begin, end, n);
   EXPECT_NEAR(patch.loads.total, force, 1e-14 * force);
   EXPECT_NEAR(patch.loads.vertical, vertical, 1e-14 * vertical);
-  EXPECT_NEAR(patch.loads.work_conjugate, on_distance, 1e-14 * on_distance);
+  EXPECT_NEAR(*patch.loads.work_conjugate, on_distance, 1e-14 * on_distance);
 }
 
 } // namespace

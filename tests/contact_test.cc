@@ -144,6 +144,51 @@ TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
     }
 }
 
+// A residual over rho is small, and so is one over a displacement that rho makes large.
+TEST(Uzawa, DivergesWhateverTheTolerance) {
+  Prepared scene(with(paper_scenes()[0].parameters(),
+                      {"Mesh/Degree=1", "Mesh/Radial cells=3", "Mesh/Angular cells=36"}));
+  const ContactSolution exact = active_set(scene.equations, scene.problem, 50);
+  const double largest = 2 / largest_compliance(scene.equations, scene.problem, exact.active);
+  for (const double rho : {1.001 * largest, 1.1 * largest, 20., 1e9, 1e300})
+    for (const UzawaStop stop : {UzawaStop::gap, UzawaStop::change})
+      for (const double tolerance : {0.1, 1e-3, 1e-8})
+        EXPECT_THROW(uzawa(scene.equations, scene.problem,
+                           {ContactMethod::uzawa, rho, stop, tolerance, 20000}, {},
+                           scene.statistics),
+                     NotSolved)
+            << rho << ' ' << tolerance;
+}
+
+TEST(Uzawa, LeavesNoMoreThanItsToleranceExplains) {
+  for (const PaperScene& paper : paper_scenes()) {
+    Prepared scene(with(paper.parameters(), {"Mesh/Radial cells=3", "Mesh/Angular cells=36"}));
+    const std::vector<bool> all(scene.problem.size(), true);
+    const double safe = 2 / largest_compliance(scene.equations, scene.problem, all);
+    for (const double rho : {0.01 * safe, 0.1 * safe, 0.5 * safe, 0.97 * safe})
+      for (const UzawaStop stop : {UzawaStop::gap, UzawaStop::change})
+        for (const double tolerance : {0.1, 1e-2, 1e-4}) {
+          SCOPED_TRACE("figure " + std::to_string(paper.figure) + ", rho = " + shortest_text(rho) +
+                       ", tolerance " + shortest_text(tolerance) +
+                       (stop == UzawaStop::gap ? ", gap" : ", change"));
+          const auto [displacement, force] =
+              uzawa(scene.equations, scene.problem,
+                    {ContactMethod::uzawa, rho, stop, tolerance, 100000}, {}, scene.statistics)
+                  .state;
+          const Vector<double> gap = scene.problem.gaps(displacement);
+          double penetration = 0, force_times_gap = 0, force_times_road = 0;
+          for (unsigned int i = 0; i < gap.size(); ++i) {
+            penetration = std::max(penetration, -gap(i));
+            force_times_gap += std::abs(force(i) * gap(i));
+            force_times_road += std::abs(force(i) * scene.problem.phi(i));
+          }
+          const double explained = 3 * (stop == UzawaStop::gap ? tolerance : std::sqrt(tolerance));
+          EXPECT_LE(penetration, explained * displacement.linfty_norm());
+          EXPECT_LE(force_times_gap, explained * force_times_road);
+        }
+  }
+}
+
 TEST(Uzawa, GivesUpAfterItsSteps) {
   Prepared scene(with(paper_scenes()[0].parameters(), {"Mesh/Angular cells=40"}));
   // The last is so small that squares of its steps vanish.
@@ -152,6 +197,11 @@ TEST(Uzawa, GivesUpAfterItsSteps) {
                        {ContactMethod::uzawa, rho, UzawaStop::gap, 1e-10, 30}, {},
                        scene.statistics),
                  NotSolved);
+  // Steps this short change u by little although nothing is solved.
+  EXPECT_THROW(uzawa(scene.equations, scene.problem,
+                     {ContactMethod::uzawa, 1e-9, UzawaStop::change, 1e-2, 1000}, {},
+                     scene.statistics),
+               NotSolved);
 }
 
 TEST(Uzawa, NeedsTheStepsOfThePapersFigure9) {

@@ -29,8 +29,7 @@ std::vector<NamedScene> scenes() {
        {"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)", "Mesh/Angular cells=120"}},
       {"cut zone", {"Road/Contact zone=4.5, 4.9", "Mesh/Degree=1"}},
       {"vertical load", {"Road/Load=0.25", "Mesh/Degree=3"}},
-      {"work-conjugate load",
-       {"Road/Load=0.25", "Road/Load kind=work-conjugate", "Certificate/Load bounds=true"}},
+      {"total load", {"Road/Load=0.25", "Road/Load kind=total"}},
       {"bounds of the load", {"Certificate/Load bounds=true"}},
       {"units",
        {"Material/Density=1.1e-9", "Material/Width=200", "Cylinder/Inner radius=17.5",
@@ -59,6 +58,31 @@ TEST(Quantities, AreThoseOfEveryMethod) {
     SCOPED_TRACE(name + ", Uzawa");
     expect_same_quantities(summary_of(with(parameters, {"Contact/Method=uzawa"})), expected,
                            tolerance_of_uzawa);
+  }
+}
+
+// The steps of the active set method have no residual.
+TEST(Quantities, ComeWithTheHistoryOfTheContactSteps) {
+  for (const char* method : {"active set", "uzawa"}) {
+    const Parameters parameters = parameters_of(
+        {"Mesh/Radial cells=3", "Mesh/Angular cells=60", std::string("Contact/Method=") + method});
+    const Scene scene = make_scene(parameters);
+    const Result result = simulate(scene, parameters).result;
+    const nlohmann::json summary = nlohmann::json::parse(summary_json(scene, parameters, result)),
+                         iterations = summary["iterations"], history = iterations["history"];
+    const std::size_t n = iterations["contact"];
+    EXPECT_EQ(history["active"].size(), n);
+    EXPECT_EQ(history["changed"].size(), n);
+    EXPECT_EQ(history["active"].back(), summary["contact"]["active_nodes"]);
+    EXPECT_EQ(history["changed"].back(), 0);
+    const bool is_uzawa = method == std::string("uzawa");
+    EXPECT_EQ(history.contains("residual"), is_uzawa);
+    EXPECT_EQ(iterations.contains("largest_rho"), is_uzawa);
+    if (is_uzawa) {
+      EXPECT_LE(history["residual"].back(), parameters.contact.tolerance);
+      EXPECT_LT(iterations["rho"], iterations["safe_rho"]);
+      EXPECT_LT(iterations["safe_rho"], iterations["largest_rho"]);
+    }
   }
 }
 

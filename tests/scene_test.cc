@@ -77,7 +77,7 @@ TEST_P(PaperFigure, LoadIsTheSlopeOfTheEnergyOverTheDistance) {
   };
   const double c = GetParam().distance;
   const double slope = (at(c + step).energy.value - at(c - step).energy.value) / (2 * step);
-  const double load = at(c).contact.loads.work_conjugate;
+  const double load = *at(c).contact.loads.work_conjugate;
   EXPECT_NEAR(slope, -load, 1e-5 * load);
 }
 

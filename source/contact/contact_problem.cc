@@ -44,13 +44,15 @@ ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene
 
 Loads loads_of(const ContactProblem& problem, const dealii::Vector<double>& force) {
   Loads loads = {};
+  double work_conjugate = 0;
   for (unsigned int i = 0; i < problem.size(); ++i) {
     if (force(i) == 0)
       continue;
     loads.total += force(i);
     loads.vertical += force(i) * std::cos(problem.x[i]);
-    loads.work_conjugate += force(i) * problem.road.distance_derivative(problem.x[i]);
+    work_conjugate += force(i) * problem.road.distance_derivative(problem.x[i]);
   }
+  loads.work_conjugate = work_conjugate;
   return loads;
 }
 

@@ -16,16 +16,39 @@ using namespace dealii;
 
 namespace {
 
-/// @param load at the nearest or farthest @p distance
-[[noreturn]] void refuse_load(const Scene& scene, const std::string& where, double distance,
-                              double load) {
+/// Why a load is out of reach on a mesh: it is too large or too small at @p road, which is the
+/// nearest or the farthest from the axle, as @p where says.
+std::string out_of_reach_text(const Scene& scene, const std::string& where,
+                              const RoadPosition& road, bool is_at_tangent) {
   std::ostringstream text;
   text.precision(6);
   text << "no distance gives this load: the road is " << where << " the axle at the distance "
-       << distance * scene.units.length << scene.units.after(Quantity::length)
-       << ", and the load there is about " << load * scene.units.of(Quantity::force)
-       << scene.units.after(Quantity::force);
-  throw BadValue("Road", "Load", text.str());
+       << road.distance * scene.units.length << scene.units.after(Quantity::length)
+       << ", and the load there is about " << road.load * scene.units.of(Quantity::force)
+       << scene.units.after(Quantity::force) << "; ";
+  if (is_at_tangent)
+    text << "contact reaches the tangent of the drum on this mesh: raise Mesh/Angular cells";
+  else if (scene.units.material.is_given())
+    text << "Material/Shear modulus may be in another unit than the load";
+  else
+    text << "without section Material, loads are relative to the shear modulus";
+  return text.str();
+}
+
+/// The load falls as the distance grows, by a jump only where a node passes the tangent of a drum.
+std::optional<std::string> missing_load_text(const Scene& scene, double load, bool is_at_tangent) {
+  constexpr double tolerance = 1e-9;
+  const double wanted = scene.load->value, force = scene.units.of(Quantity::force);
+  if (std::abs(load - wanted) <= tolerance * wanted)
+    return {};
+  std::ostringstream text;
+  text << "the load is " << std::setprecision(12) << load * force << ", wanted " << wanted * force
+       << std::setprecision(3) << " (relative difference " << std::abs(load / wanted - 1) << "): "
+       << (is_at_tangent ? "it jumps where a node passes the tangent of the drum; raise "
+                           "Mesh/Angular cells"
+                         : "the next distance in double precision is no better; change Road/Load, "
+                           "or prescribe Road/Distance");
+  return text.str();
 }
 
 /// The distances between which the wanted one lies. The load falls as the distance grows.
@@ -95,27 +118,54 @@ double approach_of_growth(const ContactProblem& problem, const ContactSolution& 
   return approach;
 }
 
+/// -d/dc of the loads while the same nodes stay in contact. d^2 phi/dc^2 enters that of G.
+Loads fixed_set_stiffness(const ContactProblem& problem, const ContactSolution& solution,
+                          const ContactState& rate) {
+  Loads stiffness = loads_of(problem, rate.force);
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    *stiffness.work_conjugate -=
+        solution.state.force(i) * problem.road.second_distance_derivative(problem.x[i]);
+  return stiffness;
+}
+
 } // namespace
 
-Loads contact_stiffness(const ContactEquations& equations, const ContactBoundary& boundary,
-                        const Scene& scene, const ContactProblem& problem,
-                        const ContactSolution& solution, unsigned int most_steps,
-                        RunStatistics& statistics) {
+bool reaches_tangent(const ContactBoundary& boundary, const Road& road,
+                     const std::vector<bool>& active) {
+  if (!road.is_convex()) // others have no tangent
+    return false;
+  const auto& surface = boundary.space().surface_nodes();
+  const unsigned int n = surface.size();
+  for (unsigned int i = 0; i < active.size(); ++i)
+    for (const unsigned int step : {1u, n - 1}) {
+      const unsigned int neighbour = (boundary.first_surface_node() + i + step) % n;
+      if (active[i] &&
+          std::abs(from_lowest_point(surface[neighbour].angle)) >= road.tangent_angle())
+        return true;
+    }
+  return false;
+}
+
+std::optional<Loads> contact_stiffness(const ContactEquations& equations,
+                                       const ContactBoundary& boundary, const Scene& scene,
+                                       const ContactProblem& problem,
+                                       const ContactSolution& solution, unsigned int most_steps,
+                                       RunStatistics& statistics) {
+  if (reaches_tangent(boundary, problem.road, solution.active))
+    return {};
   const ContactState rate = rate_of_approach(equations, problem, solution, statistics);
-  const Loads fixed_set_stiffness =
-      loads_of(problem, rate.force); // while the same nodes stay in contact
-  if (!(fixed_set_stiffness.total > 0))
-    return fixed_set_stiffness;
+  const Loads fixed = fixed_set_stiffness(problem, solution, rate);
+  if (!(fixed.total > 0))
+    return fixed;
   // The pattern of nodes at the ends repeats with each cell. Two cells average over it.
   constexpr double n_cells = 2;
   const double c = scene.road.distance;
   const unsigned int degree = boundary.space().dof_handler().get_fe().degree;
   const double step =
       std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
-                loads_of(problem, solution.state.force).total / fixed_set_stiffness.total / 2,
-                c - scene.least_distance, scene.road.greatest_distance() - c});
+                loads_of(problem, solution.state.force).total / fixed.total / 2, c / 2});
   if (!(step > 1e-10 * c))
-    return fixed_set_stiffness;
+    return fixed;
   const auto loads_at = [&](double distance) {
     const ContactProblem moved = make_contact_problem(boundary, with_distance(scene, distance));
     const ContactSolution contact = active_set(equations, moved, most_steps,
@@ -123,14 +173,14 @@ Loads contact_stiffness(const ContactEquations& equations, const ContactBoundary
     return loads_of(moved, contact.state.force);
   };
   const Loads near = loads_at(c - step), far = loads_at(c + step);
-  return {(near.total - far.total) / (2 * step), (near.vertical - far.vertical) / (2 * step),
-          (near.work_conjugate - far.work_conjugate) / (2 * step)};
+  return Loads{(near.total - far.total) / (2 * step), (near.vertical - far.vertical) / (2 * step),
+               (*near.work_conjugate - *far.work_conjugate) / (2 * step)};
 }
 
 RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps, const Vector<double>& start,
                            RunStatistics& statistics) {
-  constexpr double tolerance = 1e-10, tolerance_at_tangent = 1e-2;
+  constexpr double tolerance = 1e-10;
   constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
   Bracket bracket(scene);
@@ -147,22 +197,16 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
     const double excess = road.load - wanted;
     if (std::abs(excess) <= tolerance * wanted)
       return road;
-    const bool is_resolved =
-        kind != LoadKind::work_conjugate || !reaches_tangent(problem, contact.active);
-    if (excess < 0 && road.distance == scene.least_distance && is_resolved)
-      refuse_load(scene, "nearest to", road.distance, road.load);
+    const bool is_at_tangent = reaches_tangent(boundary, problem.road, contact.active);
+    if (excess < 0 && road.distance == scene.least_distance)
+      road.refusal = out_of_reach_text(scene, "nearest to", road, is_at_tangent);
     if (excess > 0 && road.distance == scene.road.greatest_distance())
-      refuse_load(scene, "farthest from", road.distance, road.load);
+      road.refusal = out_of_reach_text(scene, "farthest from", road, is_at_tangent);
     bracket.narrow(road.distance, excess);
     if (bracket.is_narrow(4e-16)) // both ends are neighbouring numbers
+      road.shortfall = missing_load_text(scene, road.load, is_at_tangent);
+    if (road.refusal || bracket.is_narrow(4e-16))
       return road;
-    // Nearer roads have contact up to the tangent too, so that no mesh like this one does better.
-    if (!is_resolved && excess < 0 &&
-        (excess > -tolerance_at_tangent * wanted || bracket.is_narrow(tolerance_at_tangent) ||
-         road.distance == scene.least_distance))
-      return road;
-    // The stiffness while the same nodes stay in contact. For the work-conjugate load it leaves
-    // out the change of dphi/dc, which is 0 on a flat road.
     const double stiffness =
         loads_of(problem, rate_of_approach(equations, problem, contact, statistics).force).of(kind);
     road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
@@ -174,35 +218,6 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
        << bracket.near * scene.units.length << " and " << bracket.far * scene.units.length
        << ", and the load reached is " << road.load * scene.units.of(Quantity::force);
   throw NotSolved(text.str());
-}
-
-std::optional<std::string> missing_load_text(const Scene& scene, double load) {
-  constexpr double tolerance = 1e-9;
-  const double wanted = scene.load->value, force = scene.units.of(Quantity::force);
-  if (std::abs(load - wanted) <= tolerance * wanted)
-    return {};
-  std::ostringstream text;
-  text << "the load is " << std::setprecision(12) << load * force << ", wanted " << wanted * force
-       << std::setprecision(3) << " (relative difference " << std::abs(load / wanted - 1)
-       << "): the next distance in double precision is no better; change Road/Load, or prescribe "
-          "Road/Distance";
-  return text.str();
-}
-
-bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active) {
-  const int n = problem.size();
-  const double tangent = problem.road.tangent_angle();
-  const auto first = std::find(active.begin(), active.end(), true);
-  if (first == active.end() || !problem.road.is_convex()) // others have no tangent
-    return false;
-  const int left = first - active.begin(),
-            right = n - 1 - (std::find(active.rbegin(), active.rend(), true) - active.rbegin());
-  const auto& x = problem.x;
-  const auto neighbour = [&](int i, int out) { // beyond the zone the spacing goes on
-    const int j = i + out;
-    return 0 <= j && j < n ? x[j] : n > 1 ? 2 * x[i] - x[i - out] : x[i];
-  };
-  return neighbour(left, -1) <= -tangent || neighbour(right, 1) >= tangent;
 }
 
 } // namespace rollwave

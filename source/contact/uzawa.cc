@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace rollwave {
@@ -14,25 +15,34 @@ using namespace dealii;
 
 namespace {
 
-[[noreturn]] void give_up(const ContactEquations& equations, const ContactProblem& problem,
-                          const ContactOptions& options, double rho, std::size_t steps,
-                          double smallest, RunStatistics& statistics) {
-  // Below the first of these the method converges from any start; above the second it diverges even
-  // from near the solution.
-  const ContactSolution exact = active_set(equations, problem, options.most_steps, {}, statistics);
-  const double safe = 2 / largest_compliance(equations, problem,
-                                             std::vector<bool>(problem.size(), true)),
-               largest = 2 / largest_compliance(equations, problem, exact.active);
-  std::ostringstream message;
-  message << "Uzawa's method " << (rho < safe ? "stagnates" : "diverges")
-          << " with rho = " << rho / problem.unit << ": the smallest residual of " << steps
-          << " steps is " << smallest << ", wanted " << options.tolerance << "; ";
-  if (rho < safe)
-    message << "raise Contact/Tolerance above round-off";
-  else
-    message << "lower Contact/Rho: the largest rho that can converge is " << largest / problem.unit
-            << ", and every rho below " << safe / problem.unit << " does";
-  throw NotSolved(message.str());
+/// The largest rho that can converge to a solution in which these nodes are in contact; nullopt
+/// without contact.
+std::optional<double> largest_step_length(const ContactEquations& equations,
+                                          const ContactProblem& problem,
+                                          const std::vector<bool>& active) {
+  if (std::find(active.begin(), active.end(), true) == active.end())
+    return {};
+  return 2 / largest_compliance(equations, problem, active);
+}
+
+/// @param unit the problem's unit of displacement over pressure
+std::string diverges_text(const StepLength& length, double unit) {
+  std::ostringstream text;
+  text << "Uzawa's method diverges with rho = " << length.rho / unit << "; lower Contact/Rho: ";
+  if (length.largest)
+    text << "the largest rho that can converge is " << *length.largest / unit << ", and ";
+  text << "every rho below " << length.safe / unit << " does";
+  return text.str();
+}
+
+/// On an iteration whose residual has stopped falling.
+std::string stagnates_text(const ContactOptions& options, double rho, std::size_t steps,
+                           double smallest) {
+  std::ostringstream text;
+  text << "Uzawa's method stagnates with rho = " << rho << ": the smallest residual of " << steps
+       << " steps is " << smallest << ", wanted " << options.tolerance
+       << "; raise Contact/Tolerance above round-off";
+  return text.str();
 }
 
 /// @param rho in the user's unit
@@ -41,9 +51,25 @@ std::string too_few_steps_text(const ContactOptions& options, double rho,
   std::ostringstream message;
   message << "Uzawa's method has not reached the tolerance " << options.tolerance << " after "
           << options.most_steps << " steps with rho = " << rho << ": the residual is "
-          << history.back().residual << "; raise Contact/Most steps"
+          << *history.back().residual << "; raise Contact/Most steps"
           << (options.rho ? ", or let Contact/Rho be auto" : "");
   return message.str();
+}
+
+/// Puts the pressures @p start on the nodes, none if it has no entries. Returns p = -lambda.
+Vector<double> begin_with(const ContactProblem& problem, const Vector<double>& start,
+                          ContactSolution& solution) {
+  const unsigned int n = problem.size();
+  Vector<double> p(n);
+  if (start.size() > 0)
+    p.equ(-1, start);
+  solution.active.resize(n);
+  for (unsigned int i = 0; i < n; ++i)
+    solution.active[i] = p(i) < 0;
+  solution.state.displacement.reinit(n);
+  solution.state.force = problem.forces(p);
+  solution.state.force *= -1;
+  return p;
 }
 
 /// p <- min(0, p - rho (u - phi)) for p = -lambda, with the nodal forces of it. The residual of the
@@ -100,25 +126,13 @@ double largest_compliance(const ContactEquations& equations, const ContactProble
 ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& problem,
                       const ContactOptions& options, const Vector<double>& start,
                       RunStatistics& statistics, const ContactObserver& step_ended) {
-  const unsigned int n = problem.size();
-  const std::vector<bool> none(n, false);
-  const double rho = options.rho
-                         ? *options.rho * problem.unit
-                         : 1.8 / largest_compliance(equations, problem, std::vector<bool>(n, true));
-
+  const std::vector<bool> none(problem.size(), false), all(problem.size(), true);
+  const double safe = 2 / largest_compliance(equations, problem, all),
+               rho = options.rho ? *options.rho * problem.unit : 0.9 * safe;
+  StepLength length = {rho, safe, {}};
   ContactSolution solution;
-  solution.rho = rho;
-  solution.active.assign(n, false);
-  auto& [displacement, force] = solution.state;
-  displacement.reinit(n);
-  force.reinit(n);
-  Vector<double> p(n);
-  if (start.size() > 0) {
-    p.equ(-1, start);
-    force = problem.forces(start);
-    for (unsigned int i = 0; i < n; ++i)
-      solution.active[i] = start(i) > 0;
-  }
+  Vector<double> p = begin_with(problem, start, solution);
+  const Vector<double>& displacement = solution.state.displacement;
   equations.solve(none, solution.state, statistics);
 
   double smallest = std::numeric_limits<double>::max();
@@ -126,7 +140,7 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
   while (solution.history.size() < options.most_steps) {
     Vector<double> change = displacement;
     ContactStep step = project(problem, rho, p, solution);
-    const double violation = step.residual;
+    const double violation = *step.residual;
     if (violation > 0)
       equations.solve(none, solution.state, statistics);
     change -= displacement;
@@ -137,17 +151,31 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
     solution.history.push_back(step);
     if (step_ended)
       step_ended(solution.history);
-    // A scene without contact is solved when the first projection leaves p at zero.
-    if (measured <= options.tolerance * size) {
-      solution.gap_accuracy = std::max(options.tolerance * size, measured);
+    // A scene without contact is solved when the first projection leaves p at zero. Short steps
+    // change u by little, so that the contact conditions have to hold as well.
+    if (measured <= options.tolerance * size && violation <= std::sqrt(options.tolerance) * size) {
+      // Where rho is too large u grows, and with it the residual that suffices.
+      length.largest = largest_step_length(equations, problem, solution.active);
+      if (length.largest && rho >= *length.largest)
+        throw NotSolved(diverges_text(length, problem.unit));
+      solution.step_length = length;
+      solution.gap_accuracy = std::max(options.tolerance * size, violation);
       return solution;
     }
+
     // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
-    if (step.residual < smallest) {
-      smallest = step.residual;
+    if (*step.residual < smallest) {
+      smallest = *step.residual;
       steps_without_progress = 0;
-    } else if (++steps_without_progress >= 200 || !std::isfinite(step.residual))
-      give_up(equations, problem, options, rho, solution.history.size(), smallest, statistics);
+    } else if (++steps_without_progress >= 200 || !std::isfinite(*step.residual)) {
+      if (rho < safe)
+        throw NotSolved(
+            stagnates_text(options, rho / problem.unit, solution.history.size(), smallest));
+      length.largest = largest_step_length(
+          equations, problem,
+          active_set(equations, problem, options.most_steps, {}, statistics).active);
+      throw NotSolved(diverges_text(length, problem.unit));
+    }
   }
   throw NotSolved(too_few_steps_text(options, rho / problem.unit, solution.history));
 }

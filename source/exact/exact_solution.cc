@@ -133,15 +133,13 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
   const auto limit = [&](auto number) {
     return Limit(number(sequence[0]), number(sequence[1]), number(sequence[2]));
   };
-  const auto limit_of_load = [&](double Loads::*load) {
-    return limit([load](const ExactSolution& exact) { return exact.loads.*load; });
-  };
   ExactSolution solution = sequence.back();
-  const Limit force = limit_of_load(&Loads::total);
+  const Limit force = limit([](const ExactSolution& exact) { return exact.loads.total; });
   const Limit energy = limit(std::mem_fn(&ExactSolution::energy));
   const Limit half_width = limit(std::mem_fn(&ExactSolution::half_width));
-  solution.loads = {force.value, limit_of_load(&Loads::vertical).value,
-                    limit_of_load(&Loads::work_conjugate).value};
+  solution.loads = {
+      force.value, limit([](const ExactSolution& exact) { return exact.loads.vertical; }).value,
+      limit([](const ExactSolution& exact) { return *exact.loads.work_conjugate; }).value};
   solution.force_accuracy = force.relative_accuracy();
   solution.energy = energy.value;
   solution.energy_accuracy = energy.relative_accuracy();

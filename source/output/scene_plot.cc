@@ -72,7 +72,7 @@ std::string title_of(const Scene& scene, const Result& result) {
           << ",  F / b = " << result.contact.loads.total / b;
   if (scene.road.curvature != 0)
     title << ",  kappa b = " << scene.road.curvature * b;
-  title << ";  Q" << result.mesh.degree << ", " << (result.rho > 0 ? "Uzawa" : "active set");
+  title << ";  Q" << result.mesh.degree << ", " << (result.step_length ? "Uzawa" : "active set");
   return title.str();
 }
 

@@ -40,8 +40,9 @@ constexpr unsigned int most_lines = 40;
 
 void report_history(std::ostream& out, const Result& result, const Units& units) {
   out << "\nContact steps";
-  if (result.rho > 0)
-    out << " by Uzawa's method, rho = " << result.rho * units.of(Quantity::force_density)
+  if (result.step_length)
+    out << " by Uzawa's method, rho = "
+        << result.step_length->rho * units.of(Quantity::force_density)
         << units.after(Quantity::force_density);
   else
     out << " by the active set method";
@@ -60,11 +61,11 @@ void report_history(std::ostream& out, const Result& result, const Units& units)
     table.add_value("changed", history[step].changed);
     table.add_value(penetration, history[step].penetration * length);
     table.add_value(lowest_pressure, history[step].lowest_pressure * pressure);
-    if (result.rho > 0)
-      table.add_value("residual", history[step].residual);
+    if (history[step].residual)
+      table.add_value("residual", *history[step].residual);
   }
   std::vector<std::string> columns = {penetration, lowest_pressure};
-  if (result.rho > 0)
+  if (result.step_length)
     columns.push_back("residual");
   for (const std::string& column : columns) {
     table.set_precision(column, 3);

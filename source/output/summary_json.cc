@@ -77,6 +77,18 @@ Json cycles_json(const Result& result, const Units& units) {
   return json;
 }
 
+/// The contact steps on the last mesh, by columns.
+Json history_json(const Result& result) {
+  Json json = {{"active", Json::array()}, {"changed", Json::array()}};
+  for (const ContactStep& step : result.history) {
+    json["active"].push_back(step.active);
+    json["changed"].push_back(step.changed);
+    if (step.residual)
+      json["residual"].push_back(*step.residual);
+  }
+  return json;
+}
+
 } // namespace
 
 std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result) {
@@ -92,6 +104,7 @@ std::string summary_json(const Scene& scene, const RunOptions& options, const Re
   json["cycles"] = cycles_json(result, scene.units);
   json["iterations"]["method"] =
       options.contact.method == ContactMethod::uzawa ? "uzawa" : "active set";
+  json["iterations"]["history"] = history_json(result);
   return json.dump(2) + "\n";
 }
 

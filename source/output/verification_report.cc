@@ -53,8 +53,9 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
       exact.force_accuracy);
   add("vertical load", Quantity::force, result.contact.loads.vertical, exact.loads.vertical,
       exact.force_accuracy);
-  add("work-conjugate load G", Quantity::force, result.contact.loads.work_conjugate,
-      exact.loads.work_conjugate, exact.force_accuracy);
+  if (const auto& load = result.contact.loads.work_conjugate)
+    add("work-conjugate load G", Quantity::force, *load, *exact.loads.work_conjugate,
+        exact.force_accuracy);
   add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
   add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
   add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,

@@ -77,13 +77,9 @@ void declare_road(Keys& keys, RoadOptions& road) {
            "the other where the command line or a study gives it.",
            {0, "", Quantity::force});
   keys.add_choice<LoadKind>(
-      "Load kind", road.load_kind,
-      {{"vertical", LoadKind::vertical},
-       {"total", LoadKind::total},
-       {"work-conjugate", LoadKind::work_conjugate}},
+      "Load kind", road.load_kind, {{"vertical", LoadKind::vertical}, {"total", LoadKind::total}},
       "The force that the load prescribes. \"vertical\": the force on the axle; \"total\": the "
-      "integral of the pressure; \"work-conjugate\": the force that does work when the distance "
-      "changes.");
+      "integral of the pressure.");
   keys.add("Curvature", road.curvature, Patterns::Double(),
            "Curvature kappa of the road: one over a length. 0: flat; positive: the outside of a "
            "drum; negative: the inside of a drum, with -1/kappa > b.",
@@ -166,8 +162,8 @@ void declare_contact(Keys& keys, ContactOptions& contact) {
       "Stopping rule", contact.stop, {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
       "The quantity that Uzawa's method compares with the tolerance, in the l2 norm over the "
       "contact nodes, relative to that of u. \"gap\": |change of the pressure| / rho, the "
-      "violation of the "
-      "contact conditions. \"change\": the change of u in one step.",
+      "violation of the contact conditions. \"change\": the change of u in one step, where the "
+      "violation has to be at most the square root of the tolerance.",
       {Affects::uzawa});
   keys.add("Tolerance", contact.tolerance, Patterns::Double(1e-15, 0.1),
            "Relative tolerance of Uzawa's method, from 1e-15 to 0.1. The active set method ends "

@@ -61,7 +61,7 @@ Result measure(const MeshSolution& solution) {
   result.energy = solution.energy;
   result.residuals = solution.residuals;
   result.history = solution.contact.history;
-  result.rho = solution.contact.rho;
+  result.step_length = solution.contact.step_length;
   result.remarks = solution.remarks;
   result.shortfalls = solution.shortfalls;
   result.contact_rows = tabulate_contact(solution.boundary, solution.problem, state);

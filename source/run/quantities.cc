@@ -58,6 +58,11 @@ Quantities mesh_quantities() {
 }
 
 Quantities load_quantities() {
+  const auto stiffness_of = [](double (*number)(const Loads&)) {
+    return [number](const Result& r) {
+      return r.contact.stiffness ? number(*r.contact.stiffness) : not_known;
+    };
+  };
   return {
       {"contact.vertical_load", "vertical load", "", Quantity::force,
        Shown::screen | Shown::curve | Shown::varied_table, all_digits,
@@ -66,7 +71,8 @@ Quantities load_quantities() {
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.loads.total; }},
       {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force, Shown::screen,
-       all_digits, [](const Result& r) { return r.contact.loads.work_conjugate; }},
+       all_digits,
+       [](const Result& r) { return r.contact.loads.work_conjugate.value_or(not_known); }},
       {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
        Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::lower)},
       {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
@@ -77,11 +83,11 @@ Quantities load_quantities() {
        all_digits, optional_member(&Result::distance_bounds, &Bounds::upper)},
       {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
        Shown::screen | Shown::curve, 4,
-       [](const Result& r) { return r.contact.stiffness.vertical; }},
+       stiffness_of([](const Loads& stiffness) { return stiffness.vertical; })},
       {"contact.stiffness.force", "stiffness -dF/dc", "", Quantity::stiffness, 0, 4,
-       [](const Result& r) { return r.contact.stiffness.total; }},
+       stiffness_of([](const Loads& stiffness) { return stiffness.total; })},
       {"contact.stiffness.work_conjugate_load", "stiffness -dG/dc", "", Quantity::stiffness, 0, 4,
-       [](const Result& r) { return r.contact.stiffness.work_conjugate; }},
+       stiffness_of([](const Loads& stiffness) { return *stiffness.work_conjugate; })},
   };
 }
 
@@ -201,7 +207,13 @@ Quantities work_quantities() {
       {"iterations.contact", "contact steps on the last mesh", "steps", Quantity::count,
        Shown::table, all_digits, [](const Result& r) { return r.history.size(); }},
       {"iterations.rho", "step length of Uzawa's method", "", Quantity::force_density, 0,
-       all_digits, [](const Result& r) { return r.rho > 0 ? std::optional(r.rho) : std::nullopt; }},
+       all_digits, optional_member(&Result::step_length, &StepLength::rho)},
+      {"iterations.safe_rho", "step length below which Uzawa's method converges from any start", "",
+       Quantity::force_density, 0, all_digits,
+       optional_member(&Result::step_length, &StepLength::safe)},
+      {"iterations.largest_rho", "step length from which Uzawa's method diverges", "",
+       Quantity::force_density, 0, all_digits,
+       optional_member(&Result::step_length, &StepLength::largest)},
   };
   const auto add_count = [&all](const std::string& name, const std::string& words, auto count) {
     all.push_back({"work." + name, words, "", Quantity::count, 0, all_digits,

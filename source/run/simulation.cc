@@ -12,6 +12,7 @@
 #include "rollwave/run/solve_on_mesh.h"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -106,22 +107,12 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if a work-conjugate load is given that @p n_meshes do not resolve: finer ones do not
-/// either.
-bool is_load_beyond_meshes(const MeshSolution& solution, unsigned int n_meshes) {
-  constexpr unsigned int enough = 60;
-  const auto& load = solution.scene.load;
-  return load && load->kind == LoadKind::work_conjugate && n_meshes >= enough &&
-         reaches_tangent(solution.problem, solution.contact.active);
-}
-
 /// True if no further mesh is needed or possible: the wanted error is reached, the cycles or the
-/// room are used up, the certificate has failed, or finer meshes do not resolve the load either.
-bool is_last(const RunOptions& options, const Mesh& mesh, const MeshSolution& solution,
+/// room are used up, or the certificate has failed.
+bool is_last(const RunOptions& options, const Mesh& mesh,
              const std::optional<Certificate>& certificate, unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || is_load_beyond_meshes(solution, n_meshes) ||
-         n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
+  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
          !has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options));
 }
 
@@ -130,18 +121,17 @@ std::string interrupted_text(unsigned int n_meshes) {
 }
 
 /// Computes the stiffness of the loads, where the mesh resolves it.
-void add_stiffness(const RunOptions& options, const System& system, const Load* load,
-                   MeshSolution& solution, RunStatistics& statistics) {
-  if (reaches_tangent(solution.problem, solution.contact.active))
-    return;
+void add_stiffness(const System& system, const Load* load, MeshSolution& solution,
+                   RunStatistics& statistics) {
+  constexpr unsigned int no_limit = std::numeric_limits<unsigned int>::max();
   const RunStatistics::Phase phase(statistics, "measurement");
   attempt(
       [&] {
         solution.resultants.stiffness = contact_stiffness(
             contact_equations(system, load, solution.boundary), solution.boundary, solution.scene,
-            solution.problem, solution.contact, options.contact.most_steps, statistics);
+            solution.problem, solution.contact, no_limit, statistics);
       },
-      "the stiffness could not be computed", "raise Contact/Most steps",
+      "the stiffness could not be computed", "use cells that are less stretched",
       solution.boundary.space().communicator(), solution.shortfalls);
 }
 
@@ -150,8 +140,7 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Mesh& mesh,
                                 const MeshSolution& solution,
                                 const std::optional<Certificate>& certificate, Result& result) {
   const bool wants_error = options.mesh.wanted_relative_error > 0;
-  if (wants_error && certificate && !is_reached(options, certificate) &&
-      !is_load_beyond_meshes(solution, result.cycles.size()))
+  if (wants_error && certificate && !is_reached(options, certificate))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
   else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
@@ -161,10 +150,12 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Mesh& mesh,
     result.remarks.push_back(remark);
 }
 
-/// The solution of a run from that on its last mesh.
+/// The solution of a run from that on its last mesh. @throws BadValue for a load out of reach
 Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
                 bool is_interrupted, RunStatistics statistics) {
+  if (last.load_refusal)
+    throw BadValue("Road", "Load", *last.load_refusal);
   Result result = measure(last);
   result.cycles = std::move(cycles);
   result.is_interrupted = is_interrupted;
@@ -193,7 +184,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     dual.reset();
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
-    const bool ends = is_last(options, mesh, solution, certificate, cycles.size());
+    const bool ends = is_last(options, mesh, certificate, cycles.size());
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.shortfalls.push_back(interrupted_text(cycles.size()));
@@ -208,7 +199,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     if (progress.mesh_solved && (goes_on || cycles.size() > 1))
       progress.mesh_solved(cycles.size(), cycles.back());
     if (!goes_on) {
-      add_stiffness(options, system, load.get(), solution, statistics);
+      add_stiffness(system, load.get(), solution, statistics);
       return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
                     is_stopped, std::move(statistics));
     }
@@ -248,7 +239,7 @@ Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
   std::optional<Certificate> certificate =
       certify_solution(options, load, shared.dual, solution, statistics);
   const auto cycle = describe_cycle(*mesh.space, solution, certificate);
-  add_stiffness(options, shared.system, load, solution, statistics);
+  add_stiffness(shared.system, load, solution, statistics);
   return finish(options, std::move(mesh), std::move(solution), std::move(certificate), {cycle},
                 /*is_interrupted=*/false, std::move(statistics));
 }

@@ -59,8 +59,9 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
     RoadPosition road = find_distance(equations, boundary, solution.scene, options.most_steps,
                                       pressure, statistics);
     solution.scene = with_distance(solution.scene, road.distance);
-    if (const auto shortfall = missing_load_text(solution.scene, road.load))
-      solution.shortfalls.push_back(*shortfall);
+    solution.load_refusal = std::move(road.refusal);
+    if (road.shortfall)
+      solution.shortfalls.push_back(*road.shortfall);
     pressure = std::move(road.pressure);
     solution.distance_history = std::move(road.history);
   }
@@ -69,21 +70,6 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
       solve_contact(equations, solution.problem, options, pressure, statistics, step_ended);
   if (!solution.contact.remark.empty())
     solution.remarks.push_back(solution.contact.remark);
-}
-
-/// Sets the work-conjugate load and the stiffness to NaN, since nodes next to the tangent of a drum
-/// do not resolve them.
-void leave_out_unresolved_loads(MeshSolution& solution) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  solution.resultants.loads.work_conjugate = unknown;
-  solution.resultants.stiffness = {unknown, unknown, unknown};
-  solution.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
-                             "work-conjugate load and the stiffness are not resolved: they are "
-                             "left out");
-  if (const auto& load = solution.scene.load; load && load->kind == LoadKind::work_conjugate)
-    solution.shortfalls = {"the work-conjugate load that was given is not resolved, since contact "
-                           "reaches the tangent of the drum; raise Mesh/Angular cells, or set "
-                           "Road/Load kind = vertical"};
 }
 
 } // namespace
@@ -148,8 +134,12 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
   const RunStatistics::Phase phase(statistics, "measurement");
   solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),
                                         solution.problem, solution.contact);
-  if (reaches_tangent(solution.problem, solution.contact.active))
-    leave_out_unresolved_loads(solution);
+  if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
+    solution.resultants.loads.work_conjugate.reset();
+    solution.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
+                               "work-conjugate load and the stiffness are not resolved: they are "
+                               "left out");
+  }
   FieldVector stiffness_times_u = system.factor->apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;
   const double work_of_force = f ? solution.displacement * *f : 0.;

@@ -49,6 +49,11 @@ double Road::distance_derivative(double x) const {
   return s == 0 ? 0 : std::cos(x) + (1 + curvature * distance) * sine * sine / s;
 }
 
+double Road::second_distance_derivative(double x) const {
+  const double s = root(x);
+  return s == 0 ? 0 : curvature * std::pow(std::sin(x), 2) / std::pow(s, 3);
+}
+
 double Road::crossing_angle(double free) const {
   // On the circle 1 - cos x = depth (2 - kappa depth) / (2 rho m), depth = rho - c.
   const double c = distance, m = 1 + curvature * c, rho = outer_radius + free;

@@ -26,8 +26,8 @@ struct ContactResultants {
   /// Where the first patch begins and the last one ends; nullopt without contact.
   std::optional<std::pair<double, double>> ends;
   Loads loads;
-  Loads stiffness;      ///< -d/dc of the three, see contact_stiffness()
-  double peak_pressure; ///< max lambda_i
+  std::optional<Loads> stiffness = {}; ///< -d/dc of the three, see contact_stiffness()
+  double peak_pressure;                ///< max lambda_i
   unsigned int active_nodes;
 
   /// Half of the length in contact, an angle.

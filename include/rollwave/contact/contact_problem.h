@@ -27,7 +27,8 @@ enum class UzawaStop {
   /// "gap": ||change of the pressure|| / rho, the violation of the contact conditions as a
   /// displacement.
   gap,
-  /// "change": ||u_new - u||, the rule behind the paper's figure 9.
+  /// "change": ||u_new - u||, the rule behind the paper's figure 9. The violation has to be at most
+  /// the square root of the tolerance as well, since short steps change u by little.
   change
 };
 
@@ -80,7 +81,15 @@ struct ContactStep {
   unsigned int changed;   ///< nodes that entered or left contact after this step
   double penetration;     ///< max (u_i - phi_i, 0), a length
   double lowest_pressure; ///< min (lambda_i, 0)
-  double residual;        ///< of Uzawa's method: what its stopping rule measures, relative to u
+  /// Of Uzawa's method: what its stopping rule measures, relative to u.
+  std::optional<double> residual = {};
+};
+
+/// The step length of Uzawa's method and its limits, pressures over displacements.
+struct StepLength {
+  double rho;                    ///< in use
+  double safe;                   ///< the method converges from any start with less
+  std::optional<double> largest; ///< the method diverges with more; nullopt without contact
 };
 
 /// Called after each step of a contact iteration with all steps so far.
@@ -91,8 +100,8 @@ struct ContactSolution {
   std::vector<bool> active;
   std::vector<ContactStep> history;
   double gap_accuracy = 0; ///< how far nodes in contact may be from the road, a length
-  double rho = 0;          ///< Uzawa's step length; 0 for the active set method
   std::string remark = ""; ///< anything unusual the user should know
+  std::optional<StepLength> step_length = {}; ///< of Uzawa's method
 };
 
 /// Solves by the method of @p options, beginning with the contact pressures @p start (none when

@@ -8,26 +8,32 @@
 
 namespace rollwave {
 
+/// True if contact on a drum ends next to its tangent, with no free node before it. dphi/dc grows
+/// there like d^(-1/2) with the distance d from the tangent, so that the nodes resolve neither the
+/// work-conjugate load nor the stiffness.
+bool reaches_tangent(const ContactBoundary& boundary, const Road& road,
+                     const std::vector<bool>& active);
+
 /**
- * The stiffness -d/dc of the three loads, forces over lengths; 0 without contact. At a fixed set of
- * nodes in contact it would jump from node to node, by several per cent on meshes that are not
- * fine. It is the difference quotient over the distances between which contact grows by about two
- * cells at each end, which averages over the nodes of the cells:
+ * The stiffness -d/dc of the three loads, forces over lengths; 0 without contact, nullopt where
+ * contact reaches_tangent(). At a fixed set of nodes in contact it would jump from node to node, by
+ * several per cent on meshes that are not fine. It is the difference quotient over the distances
+ * between which contact grows by about two cells at each end, which averages over the nodes of the
+ * cells:
  *
  *     (load(c - d) - load(c + d)) / (2 d).
+ *
+ * These distances may be less than the inner radius, which the linear problem does not notice.
+ * Where no end can move, d is 0 and the stiffness is that of the fixed set of nodes.
  *
  * @p solution is that of @p problem, which belongs to @p scene and its @p boundary.
  * @throws NotSolved as active_set()
  */
-Loads contact_stiffness(const ContactEquations& equations, const ContactBoundary& boundary,
-                        const Scene& scene, const ContactProblem& problem,
-                        const ContactSolution& solution, unsigned int most_steps,
-                        RunStatistics& statistics);
-
-/// True if contact on a drum ends next to its tangent, with no free node before it. dphi/dc grows
-/// there like d^(-1/2) with the distance d from the tangent, so that the nodes resolve neither the
-/// work-conjugate load nor the stiffness.
-bool reaches_tangent(const ContactProblem& problem, const std::vector<bool>& active);
+std::optional<Loads> contact_stiffness(const ContactEquations& equations,
+                                       const ContactBoundary& boundary, const Scene& scene,
+                                       const ContactProblem& problem,
+                                       const ContactSolution& solution, unsigned int most_steps,
+                                       RunStatistics& statistics);
 
 /// One step of the search for the distance.
 struct DistanceStep {
@@ -42,25 +48,28 @@ struct RoadPosition {
   double load; ///< of the kind of Scene::load
   dealii::Vector<double> pressure;
   std::vector<DistanceStep> history = {};
+
+  /// Why no distance gives the load on this mesh; the distance is then the one with the nearest
+  /// load. Finer meshes may reach it.
+  std::optional<std::string> refusal = {};
+
+  /// How far the load is from that of Scene::load, where that is more than 1e-9 of it.
+  std::optional<std::string> shortfall = {};
 };
 
 /**
  * The road's distance at which the load is that of Scene::load, by Newton's method within a
- * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow, see
- * missing_load_text(). The active set method finds the contact for each distance, beginning with
- * that of the distance before. The first is that of @p scene, with the pressures @p start. Where
- * contact reaches_tangent(), the mesh does not resolve a work-conjugate load. If the load is too
- * small there, the search ends when the load or the bracket of distances is accurate to 1 %, or at
- * Scene::least_distance.
+ * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow.
+ * The active set method finds the contact for each distance, beginning with that of the distance
+ * before. The first is that of @p scene, with the pressures @p start.
  *
- * @throws BadValue where a road at Scene::least_distance carries less, or a drum around the
- *         cylinder carries more at every distance; NotSolved as active_set(), or after 100 trials.
+ * The load is out of reach on this mesh where a road at Scene::least_distance carries less, or a
+ * drum around the cylinder carries more at every distance.
+ *
+ * @throws NotSolved as active_set(), or after 100 trials.
  */
 RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps,
                            const dealii::Vector<double>& start, RunStatistics& statistics);
-
-/// How far @p load is from that of Scene::load, where that is more than 1e-9 of it.
-std::optional<std::string> missing_load_text(const Scene& scene, double load);
 
 } // namespace rollwave

@@ -15,8 +15,9 @@ namespace rollwave {
  *
  * Let theta be the largest eigenvalue of the compliance on a set of nodes, see
  * largest_compliance(). The method converges from any start if 0 < rho < 2 / theta for the set of
- * all contact nodes. It diverges if rho > 2 / theta for the nodes that are in contact at the
- * solution. If the step length is too large, the residual stops falling.
+ * all contact nodes. It diverges if rho >= 2 / theta for the nodes that are in contact at the
+ * solution, and is refused then, since a loose tolerance might be met before the residual grows.
+ * Between the two the residual may stop falling.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.

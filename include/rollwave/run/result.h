@@ -110,7 +110,7 @@ struct Result {
   std::vector<CycleFigures> cycles;           ///< one for each mesh
   std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load is given
   std::vector<ContactStep> history;           ///< on the last mesh
-  double rho;                                 ///< Uzawa's step length; 0 for the active set method
+  std::optional<StepLength> step_length;      ///< of Uzawa's method
   std::vector<std::string> remarks;           ///< notes for the reader
   /// Targets that were not reached, with the keys to change.
   std::vector<std::string> shortfalls;

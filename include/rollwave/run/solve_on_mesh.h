@@ -43,6 +43,7 @@ struct MeshSolution {
   FieldVector displacement = {}; ///< u_h
   ContactResultants resultants = {};
   std::vector<DistanceStep> distance_history = {}; ///< where a load is given
+  std::optional<std::string> load_refusal = {};    ///< see RoadPosition::refusal
   Energy energy = {};                              ///< of u_h
   Residuals residuals = {};
   std::vector<std::string> remarks = {};    ///< anything unusual that the user should know

@@ -1,22 +1,23 @@
 #pragma once
 
+#include <optional>
+
 namespace rollwave {
 
 enum class LoadKind {
-  vertical,      ///< "vertical": the load on the axle
-  total,         ///< "total": the integral of the pressure
-  work_conjugate ///< "work-conjugate": minus the derivative of the energy by the distance
+  vertical, ///< "vertical": the load on the axle
+  total     ///< "total": the integral of the pressure
 };
 
 /// The three loads b int lambda q dz, with x = z - 3 pi/2.
 struct Loads {
-  double total;          ///< the contact force F: q = 1
-  double vertical;       ///< q = cos x
-  double work_conjugate; ///< G = -dJ/dc: q = dphi/dc
+  double total;    ///< the contact force F: q = 1
+  double vertical; ///< q = cos x
 
-  double of(LoadKind kind) const {
-    return kind == LoadKind::total ? total : kind == LoadKind::vertical ? vertical : work_conjugate;
-  }
+  /// G = -dJ/dc: q = dphi/dc; nullopt where nodes do not resolve it, see reaches_tangent()
+  std::optional<double> work_conjugate;
+
+  double of(LoadKind kind) const { return kind == LoadKind::total ? total : vertical; }
 };
 
 } // namespace rollwave

@@ -38,6 +38,9 @@ struct Road {
   /// dphi/dc = cos x + m sin^2 x / R, which is 1 / cos x on a flat road
   double distance_derivative(double x) const;
 
+  /// d^2 phi/dc^2 = kappa sin^2 x / R^3, which is 0 on a flat road
+  double second_distance_derivative(double x) const;
+
   /// The angle at which the road meets a surface of the radius b + @p free: the angle of the
   /// tangent if the road does not reach that radius, 0 if the surface lies above the road.
   double crossing_angle(double free) const;
