@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -45,18 +46,31 @@ bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
 }
 
+/// The keys of which runs have different values.
+std::set<std::string> differing_keys(const Study& study) {
+  std::map<std::string, std::map<std::string, std::size_t>> n_runs; // by key and value
+  for (const RunPlan& plan : study.plans)
+    for (const auto& settings : {plan.scene_settings, plan.varied})
+      for (const Setting& setting : settings)
+        ++n_runs[setting.path()][setting.value];
+  std::set<std::string> keys;
+  for (const auto& [key, values] : n_runs)
+    if (values.begin()->second < study.plans.size())
+      keys.insert(key);
+  if (keys.count("Road/Distance") + keys.count("Road/Load") > 0) // they replace each other
+    keys.insert({"Road/Distance", "Road/Load"});
+  return keys;
+}
+
 /// The values that all runs share: the keys that titles name, and others of the scene that are not
 /// at their defaults.
 std::string title_of(const Study& study) {
   const RunPlan& plan = study.plans.front();
-  const std::vector<Setting>& settings = plan.parameters.settings;
+  const std::set<std::string> differing = differing_keys(study);
   std::string title;
   for (const Key& key : all_keys()) {
-    const Setting setting{key.section, key.name, value_of(key, settings), ""};
-    const bool is_shared =
-        std::all_of(study.plans.begin(), study.plans.end(), [&](const RunPlan& other) {
-          return value_of(key, other.parameters.settings) == setting.value;
-        });
+    const Setting setting{key.section, key.name, value_of(key, study.settings), ""};
+    const bool is_shared = differing.count(setting.path()) == 0;
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
     if (is_shared && is_named && setting.value != "none")
@@ -70,6 +84,7 @@ std::string title_of(const Study& study) {
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
+  const bool has_marks = !marks.empty() && study.has(marks);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     const Setting* const last = &fastest_key(study, plan);
@@ -79,7 +94,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
     curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
-    if (!marks.empty() && study.has(marks))
+    if (has_marks)
       curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
   }
   return curves;
@@ -162,10 +177,11 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
 }
 
 /// At most most_curves runs: at about equal distances of the key that varies, where its numbers
-/// @p x are known and no other key varies.
+/// @p x are known and neither another key nor the scene varies.
 std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double>& x) {
   const auto numbers = equidistant_numbers(study.runs.size(), most_curves);
-  if (x.empty() || study.first_key_of_part.size() > 1 || x.size() <= most_curves)
+  const bool has_scenes = study.plans.front().scene != study.plans.back().scene;
+  if (x.empty() || has_scenes || study.first_key_of_part.size() > 1 || x.size() <= most_curves)
     return {numbers.begin(), numbers.end()};
   const auto [least, largest] = std::minmax_element(x.begin(), x.end());
   std::set<unsigned int> runs;

@@ -1,17 +1,21 @@
 #include "rollwave/study/study_solver.h"
 
+#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/output/result_files.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/study/run_digest.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 
 namespace rollwave {
@@ -21,12 +25,21 @@ using namespace dealii;
 namespace {
 
 /// The settings of a run that affect its mesh and matrices, or its scene.
-std::map<std::string, std::string> settings_of(const RunPlan& plan, unsigned int affected) {
+std::map<std::string, std::string> settings_of(const Parameters& study, const RunPlan& plan,
+                                               unsigned int affected) {
   std::map<std::string, std::string> settings;
-  for (const Setting& setting : plan.parameters.settings)
+  for (const Setting& setting : settings_of_run(study, plan))
     if (key_of(setting).affects & affected)
       settings[setting.path()] = setting.value;
   return settings;
+}
+
+/// Adds the digest to parameters.prm, by which a later call sees that all files are there; not if
+/// that is the file that was read.
+void mark_complete(const WrittenFiles& written, const std::string& digest) {
+  for (const std::filesystem::path& file : written.files)
+    if (file.filename() == "parameters.prm")
+      append_to_file(file, "\n# The files of this run are complete: " + digest + "\n");
 }
 
 } // namespace
@@ -42,7 +55,7 @@ StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& st
   for (const RunPlan& plan : plans)
     if (most_cycles(plan.parameters.mesh) == 0) {
       const Scene scene = make_scene(plan.parameters);
-      const Settings key = settings_of(plan, Affects::mesh);
+      const Settings key = settings_of(study, plan, Affects::mesh);
       auto& zone = widest_zone.try_emplace(key, scene.zone_begin, scene.zone_end).first->second;
       zone = {std::min(zone.first, scene.zone_begin), std::max(zone.second, scene.zone_end)};
       ++n_runs[key];
@@ -56,21 +69,24 @@ StudyRun StudySolver::solve(unsigned int number) {
   const RunPlan& plan = plans[number];
   StudyRun run;
   if (!study.study.files_of_each_run.empty())
-    run.files = "run-" + Utilities::int_to_string(number + 1, 3);
+    run.files = directory_of_run(number);
   try {
     solve(plan, run);
   } catch (const Interrupted&) {
     throw;
+  } catch (const NotWritten&) {
+    throw;
   } catch (const NotSolved& failure) {
     run.failure = failure.what();
   } catch (const BadValue& value) {
-    run.failure = refusal(plan.parameters.settings, value);
+    run.failure = refusal(settings_of_run(study, plan), value);
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& failure) {
     if (!is_serial(communicator))
       throw; // the other processes would wait
-    run.failure = NotEnoughMemory().what();
+    const bool is_short = dynamic_cast<const std::bad_alloc*>(&failure);
+    run.failure = is_short ? NotEnoughMemory().what() : reason_of(failure);
   }
   if (!run.is_solved())
     run.files.clear();
@@ -97,7 +113,7 @@ Solution StudySolver::solve_timed(const RunPlan& plan) {
 
 Solution StudySolver::solve_on_shared_mesh(const RunPlan& plan, StudyRun& run) {
   const Scene scene = make_scene(plan.parameters);
-  const Settings key = settings_of(plan, Affects::mesh);
+  const Settings key = settings_of(study, plan, Affects::mesh);
   std::optional<Discretisation> mesh;
   if (last_mesh == key) {
     mesh = std::move(solution->mesh);
@@ -128,25 +144,36 @@ void StudySolver::solve(const RunPlan& plan, StudyRun& run) {
       result.errors = measure_true_errors(*solution, *exact);
       if (solution->scene.load)
         result.errors->exact_distance = exact_distance(plan, solution->scene);
-      if (result.errors->is_resolved)
-        run.reference = "the semi-analytic solution";
-      else
-        result.errors.reset(); // errors below the accuracy of the reference give no orders
+      run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (!run.files.empty()) {
-    Parameters parameters = plan.parameters;
-    parameters.output.files = study.study.files_of_each_run;
-    write_results(directory / run.files, parameters, *solution);
+    const WrittenFiles written =
+        write_results(directory / run.files, parameters_of_files(plan, run.files), *solution);
+    if (process_number(communicator) == 0)
+      mark_complete(written, digest_of_files(plan.digest, study));
+    run.remarks = written.remarks;
   }
   run.values = values_of(result, solution->scene.units);
   run.pressure = pressure_of(result, solution->scene.units);
   run.failure = shortfall_text(result);
-  run.remarks = result.remarks;
+  run.remarks.insert(run.remarks.begin(), result.remarks.begin(), result.remarks.end());
+}
+
+/// Those of a run that writes its own files.
+Parameters StudySolver::parameters_of_files(const RunPlan& plan, const std::string& files) const {
+  std::vector<Setting> settings = settings_of_run(study, plan);
+  const Setting& kinds = *last_of(study.settings, "Study/Files of each run");
+  settings.push_back({"Output", "Files", kinds.value, kinds.origin});
+  settings.push_back({"Output", "Directory", (directory / files).string(), kinds.origin});
+  Parameters parameters = read_parameters(settings);
+  parameters.file = study.file;
+  return parameters;
 }
 
 std::optional<double> StudySolver::exact_distance(const RunPlan& plan, const Scene& scene) {
-  const auto [known, is_first] = exact_distances.try_emplace(settings_of(plan, Affects::scene));
+  const auto [known, is_first] =
+      exact_distances.try_emplace(settings_of(study, plan, Affects::scene));
   if (is_first)
     known->second = find_exact_distance(scene);
   return known->second;
@@ -155,7 +182,7 @@ std::optional<double> StudySolver::exact_distance(const RunPlan& plan, const Sce
 const std::optional<ExactSolution>& StudySolver::exact_solution(const RunPlan& plan,
                                                                 const Scene& scene) {
   const auto [known, is_first] =
-      exact_solutions.try_emplace({settings_of(plan, Affects::scene), scene.road.distance});
+      exact_solutions.try_emplace({settings_of(study, plan, Affects::scene), scene.road.distance});
   if (is_first)
     known->second = find_exact_solution(scene);
   return known->second;

@@ -4,7 +4,6 @@
 #include "rollwave/scene/units.h"
 #include "rollwave/study/study_plan.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,15 +31,18 @@ struct StudyRun {
 struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
+  std::optional<StudyPart> part = {}; ///< where a call makes a part of the runs only
+  std::vector<Setting> settings = {}; ///< all of the first run
 
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
   /// vary together.
   std::vector<unsigned int> first_key_of_part = {};
   std::string shortfall = ""; ///< set if the user has interrupted it, otherwise empty
 
-  std::size_t n_ended() const {
-    return runs.size() - std::count(runs.begin(), runs.end(), std::nullopt);
-  }
+  /// The numbers of the runs that the call makes, from 0 on.
+  std::vector<unsigned int> wanted_runs() const;
+
+  std::size_t n_ended() const;
 
   /// The value of one of result_quantities() or of `published_steps`, where it is known.
   /// @throws std::out_of_range for another name

@@ -33,6 +33,7 @@ private:
   using Settings = std::map<std::string, std::string>;
 
   void solve(const RunPlan& plan, StudyRun& run);
+  Parameters parameters_of_files(const RunPlan& plan, const std::string& files) const;
   Solution solve_timed(const RunPlan& plan);
   Solution solve_on_shared_mesh(const RunPlan& plan, StudyRun& run);
   const std::optional<ExactSolution>& exact_solution(const RunPlan& plan, const Scene& scene);
