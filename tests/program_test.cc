@@ -420,6 +420,16 @@ TEST_F(Program, RunsNamedScenesOfAStudy) {
   EXPECT_EQ(shell("$rollwave " + scene + " --set 'Study/Scenes=Road/Distance = 0.9'").exit_code, 1);
 }
 
+TEST_F(Program, DrawsProfilesOfAllScenes) {
+  ASSERT_EQ(shell("$rollwave " + scene +
+                  " --set 'Study/Scenes=one: Mesh/Degree = 1; two: Mesh/Degree = 2' --set "
+                  "'Study/Vary=Road/Distance = 0.7 : 0.9 : 0.05'")
+                .exit_code,
+            0);
+  for (const char* const name : {"one, c = ", "two, c = "})
+    EXPECT_NE(read("study-profiles.gp").find(name), std::string::npos) << name;
+}
+
 TEST(Study, ScenesOfTheExtremesAreAdmitted) {
   const Parameters parameters =
       read_parameters(read_settings(ROLLWAVE_PRM_DIRECTORY "/studies/extremes.prm"));

@@ -5,6 +5,7 @@
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_runner.h"
 #include "rollwave/study/study_solver.h"
+#include "rollwave/study/study_table.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/exceptions.h>
@@ -386,6 +387,33 @@ TEST_F(RepeatedStudy, HasTheErrorOfTheDistanceForALoad) {
   const double error = rows(settings).value(0, "error.exact_distance").value();
   EXPECT_GT(error, 0);
   EXPECT_LT(error, 1e-2);
+}
+
+// An error below the accuracy of the reference takes no other with it.
+TEST_F(RepeatedStudy, HasTheErrorsThatTheReferenceResolves) {
+  const std::vector<std::string> settings = {"Road/Distance=1.9", "Cylinder/Radial force=1",
+                                             "Study/True errors=true",
+                                             "Study/Vary=Mesh/Degree = 1 | 8"}; // without contact
+  run(settings);
+  const Study study = rows(settings);
+  EXPECT_GT(study.value(0, "error.exact_relative").value_or(0), 1e-3);
+  EXPECT_FALSE(study.value(1, "error.exact_relative"));
+  EXPECT_LT(study.value(1, "error.exact_energy").value_or(1), 1e-9);
+  EXPECT_EQ(study.value(1, "error.exact_force"), 0.);
+  EXPECT_EQ(study.runs[1]->reference, study.runs[0]->reference);
+}
+
+TEST(StudyTable, IsReadByLatex) {
+  Study study = planned({"Study/Scenes=a\\q_1 {50 % & $x^2~}: Road/Distance=0.7; b: Mesh/Degree=1",
+                         "Study/Vary=Cylinder/Radial force = \"r > 0.7 || z < 4\""});
+  study.runs[0] = study.runs[1] = some_run();
+  const std::string tex = table_as_tex(study);
+  for (const char* const part : {"a\\textbackslash{}q\\_1 \\{50 \\% \\& \\$x\\^{}2\\~{}\\}",
+                                 "r > 0.7 || z < 4", "\\usepackage[T1]{fontenc}"})
+    EXPECT_NE(tex.find(part), std::string::npos) << part << '\n' << tex;
+  EXPECT_EQ(tex.find("\\documentclass"), 0u);
+  EXPECT_EQ(count(tex, "\\begin{document}"), 1u);
+  EXPECT_EQ(count(tex, "\\end{document}"), 1u);
 }
 
 /// The orders of a study with true errors, where the error of a run is the product of @p factor

@@ -2,10 +2,11 @@
 
 #include "rollwave/base/errors.h"
 #include "rollwave/base/text.h"
-#include "rollwave/parameters/keys.h"
 #include "rollwave/parameters/parameters.h"
 
 #include <boost/algorithm/string/replace.hpp>
+
+#include <sstream>
 
 namespace rollwave {
 
@@ -35,14 +36,12 @@ namespace {
 
 /// "K/N" with 1 <= K <= N. @throws BadInput
 StudyPart parse_part(const std::string& text) {
-  const dealii::Patterns::Integer number(1);
-  const auto parts = split(text, '/');
-  if (parts.size() == 2 && number.match(parts[0]) && number.match(parts[1])) {
-    const StudyPart part = {converted<unsigned int>(parts[0], number),
-                            converted<unsigned int>(parts[1], number)};
-    if (part.number <= part.count)
-      return part;
-  }
+  StudyPart part;
+  char slash = 0, rest = 0;
+  std::istringstream in(text);
+  if (in >> part.number >> slash >> part.count && slash == '/' && !(in >> rest) &&
+      text.find('-') == std::string::npos && 1 <= part.number && part.number <= part.count)
+    return part;
   throw BadInput("--part " + in_quotes(text) +
                  " is not of the form K/N with 1 <= K <= N, as in --part 1/4");
 }

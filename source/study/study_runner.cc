@@ -195,6 +195,8 @@ unsigned int run_study(Study& study, const Parameters& parameters, std::ostream&
                         parameters.study.files_of_each_run);
     WrittenFiles written;
     write_parameters(directory, parameters, written);
+    for (const std::string& remark : written.remarks)
+      out << "Note: " << remark << '\n';
   }
   take_over(study, parameters, communicator);
   if (const auto n_earlier = study.n_ended(); n_earlier > 0)
