@@ -140,6 +140,15 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
   return panels;
 }
 
+/// True if no run has a value: gnuplot refuses such a panel.
+bool is_empty(const Panel& panel) {
+  for (const Curve& curve : panel.curves)
+    for (const auto& [x, y] : curve.points)
+      if (!std::isnan(y))
+        return false;
+  return true;
+}
+
 /// The error over the quantity @p x for each family of runs that differ in the fineness of their
 /// meshes: the true error or, if that is not known, its bound.
 /// @param order_factor slopes over expected orders; 0 for none
@@ -231,8 +240,9 @@ std::vector<double> fastest_numbers(const Study& study) {
 void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written) {
   const std::string title = title_of(study);
   std::vector<Picture> pictures;
-  const auto add = [&](const std::string& name, const std::vector<Panel>& panels) {
-    if (!panels.front().curves.empty())
+  const auto add = [&](const std::string& name, std::vector<Panel> panels) {
+    panels.erase(std::remove_if(panels.begin(), panels.end(), is_empty), panels.end());
+    if (!panels.empty())
       pictures.push_back(plot_panels(name, title, panels));
   };
   const auto x = fastest_numbers(study);

@@ -163,7 +163,8 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
   for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
     for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
       write_points(script, block("curve", k, i), panels[k].curves[i].points);
-      write_points(script, block("marks", k, i), panels[k].curves[i].marks);
+      if (!panels[k].curves[i].marks.empty())
+        write_points(script, block("marks", k, i), panels[k].curves[i].marks);
     }
   const bool is_single = panels.size() == 1;
   unsigned int n_titles = panels[0].slopes.size(),
