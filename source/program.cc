@@ -61,7 +61,7 @@ void verify(Solution& solution, std::ostream& out) {
     solution.result.errors = measure_true_errors(solution, *exact);
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
-    report_verification(out, scene, solution.result, *exact);
+    report_verification(out, scene, solution.result, *exact, find_exact_stiffness(scene));
   } else {
     solution.result.remarks.push_back("no exact solution is known for this scene: " + why);
     out << "\nNote: " << solution.result.remarks.back() << '\n';

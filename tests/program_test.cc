@@ -35,7 +35,8 @@ TEST_F(Program, WritesEveryDocumentedFile) {
   EXPECT_TRUE(json["cycles"][0]["indicated_error"].is_null()); // nothing was to be refined
   unsigned long bytes = 0;
   for (const std::string& name : names)
-    bytes += fs::file_size(directory / "out" / name);
+    if (name.find("scene.") != 0) // pictures come after the numbers
+      bytes += fs::file_size(directory / "out" / name);
   EXPECT_EQ(json["work"]["bytes_written"], bytes);
 
   EXPECT_EQ(read("contact.csv").find("z,u,phi,gap,pressure,weight\n"), 0u);
@@ -150,7 +151,9 @@ TEST_F(Program, DrawsItsPicturesAgainFromTheirScripts) {
         EXPECT_NE(before.find("</svg>"), std::string::npos) << name;
         fs::remove(picture);
         const std::string script = "'" + picture.replace_extension(".gp").string() + "'";
-        EXPECT_EQ(shell("cd '" + (directory / "out").string() + "' && gnuplot " + script).text, "");
+        EXPECT_EQ(
+            shell("cd '" + (directory / "out").string() + "' && LC_ALL=C gnuplot " + script).text,
+            "");
         EXPECT_EQ(read(name), before);
         ++n_pictures;
       }

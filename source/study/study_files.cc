@@ -37,10 +37,9 @@ std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
   const auto times = times_of(study);
   std::vector<std::pair<double, std::string>> files;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
-    for (const char* const name : {"solution.vtu", "solution.pvtu"})
-      if (study.runs[run] && !study.runs[run]->files.empty() &&
-          std::filesystem::exists(directory / study.runs[run]->files / name))
-        files.emplace_back(times[run], study.runs[run]->files + '/' + name);
+    if (study.runs[run] && !study.runs[run]->files.empty() &&
+        std::filesystem::exists(directory / study.runs[run]->files / "solution.vtu"))
+      files.emplace_back(times[run], study.runs[run]->files + "/solution.vtu");
   std::ostringstream text;
   dealii::DataOutBase::write_pvd_record(text, files);
   return text.str();

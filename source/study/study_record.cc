@@ -37,6 +37,13 @@ bool Study::has(const std::string& name) const {
   return false;
 }
 
+bool Study::is_of_scenes() const {
+  const auto& varied = plans.front().varied;
+  return std::all_of(varied.begin(), varied.end(), [](const Setting& setting) {
+    return key_of(setting).affects & Affects::scene;
+  });
+}
+
 bool Study::varies(const std::string& name) const {
   double least = std::numeric_limits<double>::infinity(), largest = -least;
   for (unsigned int run = 0; run < runs.size(); ++run)

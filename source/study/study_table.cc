@@ -46,10 +46,10 @@ dealii::TableHandler make_table(const Study& study,
   };
   const Units units = study.units();
   const bool has_published = study.has("published_steps");
+  const unsigned int kind = study.is_of_scenes() ? Shown::scene_table : Shown::table;
   std::vector<ResultQuantity> shown;
   for (const ResultQuantity& quantity : result_quantities())
-    if (((quantity.shown & Shown::table) && study.has(quantity.name)) ||
-        ((quantity.shown & Shown::varied_table) && study.varies(quantity.name)))
+    if ((quantity.shown & kind) && study.has(quantity.name))
       shown.push_back(quantity);
   for (unsigned int run = 0; run < study.runs.size(); ++run) {
     if (!study.runs[run])
@@ -121,9 +121,11 @@ void print_study_notes(std::ostream& out, const Study& study) {
       if (!made->remarks.empty())
         remarks[run] = boost::algorithm::join(made->remarks, "; ");
     }
-  out << "\nsteps: of the contact iteration on the last mesh, for a given load at its last "
-         "distance.\n"
-         "seconds: with the certificate and the files of each run, if any; without start-up, "
+  out << '\n';
+  if (!study.is_of_scenes())
+    out << "steps: of the contact iteration on the last mesh, for a given load at its last "
+           "distance.\n";
+  out << "seconds: with the certificate and the files of each run, if any; without start-up, "
          "exact\n"
          "solutions, and work reused from the run before (column shared of study.csv).\n";
   if (study.has("error.certified_relative"))

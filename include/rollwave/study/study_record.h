@@ -54,6 +54,9 @@ struct Study {
   /// True if any run has a value that is greater than 0.
   bool has(const std::string& name) const;
 
+  /// True if the runs differ in keys of the scene only, not in those of mesh or method.
+  bool is_of_scenes() const;
+
   /// True if the values of two runs differ by more than 1e-8 of the largest.
   bool varies(const std::string& name) const;
 };
