@@ -6,6 +6,8 @@
 #include <boost/uuid/uuid_io.hpp>
 #include <deal.II/base/config.h>
 
+#include <functional>
+
 namespace rollwave {
 
 std::string version_text() {
@@ -14,8 +16,9 @@ std::string version_text() {
 
 std::string digest_with_build(const std::string& text) {
   using boost::uuids::name_generator_sha1;
-  static const boost::uuids::uuid build =
-      name_generator_sha1(boost::uuids::ns::oid())(version_text() + read_file("/proc/self/exe"));
+  // The bytes of the program are many: for them a fast hash is enough.
+  static const boost::uuids::uuid build = name_generator_sha1(boost::uuids::ns::oid())(
+      version_text() + std::to_string(std::hash<std::string>()(read_file("/proc/self/exe"))));
   return to_string(name_generator_sha1(build)(text));
 }
 
