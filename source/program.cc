@@ -17,29 +17,39 @@
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
-#include <boost/algorithm/string/join.hpp>
-
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
+#include <string>
+#include <vector>
 
 namespace rollwave {
 
 namespace {
 
-void run_and_report_study(Study& study, const Parameters& parameters, MPI_Comm communicator,
+/// @param joining_command that takes the parts of a study together
+void run_and_report_study(Study& study, const Parameters& parameters,
+                          const std::string& joining_command,
+                          const std::vector<std::filesystem::path>& older, MPI_Comm communicator,
                           std::ostream& out) {
   out << version_text() << "\n\n";
-  run_study(study, parameters, out, communicator);
-  if (process_number(communicator) == 0) {
+  const unsigned int n_made = run_study(study, parameters, out, communicator);
+  if (study.part)
+    out << "\nPart " << study.part->number << " of " << study.part->count << ": " << n_made
+        << " runs made, " << study.n_ended() - n_made
+        << " reused. When all parts have ended, this joins them: " << joining_command << std::endl;
+  else if (process_number(communicator) == 0) {
     out << '\n' << table_as_text(study);
     print_study_notes(out, study);
-    report_files(out, write_study(parameters, study));
+    report_files(out, write_study(parameters, study, older));
   }
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
-  if (std::none_of(study.runs.begin(), study.runs.end(),
-                   [](const auto& run) { return run->is_solved(); }))
-    throw NotSolved("no run of the study was solved; the first: " + study.runs.front()->failure);
+  const auto wanted = study.wanted_runs();
+  if (std::none_of(wanted.begin(), wanted.end(),
+                   [&](unsigned int run) { return study.runs[run]->is_solved(); }))
+    throw NotSolved("no run of the study was solved; the first: " +
+                    study.runs[wanted.front()]->failure);
 }
 
 /// Adds the errors to the result, where the exact solution is known.
@@ -51,14 +61,15 @@ void verify(Solution& solution, std::ostream& out) {
     solution.result.errors = measure_true_errors(solution, *exact);
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
-    report_verification(out, scene, solution.result, *exact);
+    report_verification(out, scene, solution.result, *exact, find_exact_stiffness(scene));
   } else {
     solution.result.remarks.push_back("no exact solution is known for this scene: " + why);
     out << "\nNote: " << solution.result.remarks.back() << '\n';
   }
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm communicator,
+void solve_scene(const Scene& scene, const Parameters& parameters,
+                 const std::vector<std::filesystem::path>& older, MPI_Comm communicator,
                  bool verifies, std::ostream& out) {
   report_scene(out, scene, parameters);
   if (parameters.study.true_errors)
@@ -67,13 +78,14 @@ void solve_scene(const Scene& scene, const Parameters& parameters, MPI_Comm comm
   Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene));
   report_result(out, solution.result, scene.units);
   const auto& directory = parameters.output.directory;
-  const WrittenFiles written = write_results(directory, parameters, solution);
+  WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) { // which may take long
     attempt([&] { verify(solution, out); }, "the result could not be verified",
             "leave out --verify", communicator, solution.result.shortfalls);
     WrittenFiles again;
     write_summary(directory, parameters, solution, again);
   }
+  written.note_older_files(older);
   report_end(out, solution.result.statistics, written);
   if (!solution.result.shortfalls.empty())
     throw TargetNotReached(shortfall_text(solution.result));
@@ -87,25 +99,24 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
   const bool is_study = !parameters.study.vary.empty() || !parameters.study.scenes.empty();
   if (is_study && line.verify)
     throw BadInput("--verify is for a single scene; a study has Study/True errors = true");
+  if (!is_study && line.part)
+    throw BadInput("--part is for a study; this file has neither Study/Vary nor Study/Scenes");
   try {
     Study study;
     Scene scene; // the runs of a study have their own
     if (is_study)
-      study = plan_study(parameters);
+      study = plan_study(parameters, line.part);
     else
       scene = make_scene(parameters);
-    const auto removed = prepare_directory(parameters, is_study, communicator);
-    if (!removed.empty())
-      out << "Note: files of an earlier run are removed: " << boost::algorithm::join(removed, ", ")
-          << '\n';
+    const auto older = prepare_directory(parameters, is_study, communicator);
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
-      run_and_report_study(study, parameters, communicator, out);
+      run_and_report_study(study, parameters, line.joining_command, older, communicator, out);
     else
-      solve_scene(scene, parameters, communicator, line.verify, out);
+      solve_scene(scene, parameters, older, communicator, line.verify, out);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

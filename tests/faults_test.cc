@@ -280,6 +280,39 @@ TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
   expect_no_partial_files();
 }
 
+// With a copy of itself and another study in the same directory.
+TEST_F(Faults, StudiesThatAreKilledSideBySideEndAsTheUndisturbedOnes) {
+  const std::string distances = "Road/Distance = 0.7 : 0.92 : 0.02";
+  const std::vector<std::string> one = {"Study/Vary=" + distances + "; Mesh/Degree = 1 | 2",
+                                        "Output/Files="},
+                                 other = {"Study/Vary=Mesh/Degree = 2; " + distances +
+                                              "; Road/Curvature = 0 | 1 | -0.1",
+                                          "Output/Files="};
+  const auto begin = std::chrono::steady_clock::now();
+  ASSERT_EQ(run(one).exit_code, 0);
+  const Seconds duration = std::chrono::steady_clock::now() - begin;
+  const auto undisturbed = figures_of_study(read("study.csv"));
+  const auto n_points = lines_of(read("study-profiles.csv")).size();
+  ASSERT_EQ(undisturbed.size(), 25u);
+  fs::remove_all(directory / "out");
+
+  std::minstd_rand random(2);
+  std::uniform_real_distribution<double> share(0.1, 0.8);
+  for (unsigned int i = 0; i < 4; ++i) {
+    RunningProgram first(arguments(one)), second(arguments(other)), third(arguments(one));
+    for (RunningProgram* const program : {&second, &first, &third}) {
+      std::this_thread::sleep_for(share(random) * duration);
+      program->end_by(SIGKILL);
+    }
+    if (i == 1)
+      fs::remove(directory / "out" / "study.csv");
+  }
+  const Outcome outcome = run(one);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
+  EXPECT_EQ(lines_of(read("study-profiles.csv")).size(), n_points);
+}
+
 #ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
 TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
   const std::string lots = "4000000"; // KiB
@@ -337,11 +370,34 @@ TEST_F(Faults, GnuplotThatFailsCostsThePictureOnly) {
   fs::create_directory(bin);
   std::ofstream(bin / "gnuplot") << "#!/bin/sh\necho '<svg'\nexit 1\n";
   fs::permissions(bin / "gnuplot", fs::perms::owner_all);
-  const Outcome outcome = shell("PATH='" + bin.string() + "' $rollwave " + scene);
+  const Outcome outcome = shell("PATH='" + bin.string() + "':$PATH $rollwave " + scene);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_FALSE(has("scene.svg"));
   EXPECT_TRUE(has("scene.gp"));
   EXPECT_TRUE(has("summary.json"));
+}
+
+// The numbers are there before gnuplot begins, which has a minute: here the test shortens it.
+TEST_F(Faults, GnuplotThatHangsCostsThePictureOnly) {
+  const fs::path bin = directory / "bin";
+  fs::create_directory(bin);
+  std::ofstream(bin / "gnuplot") << "#!/bin/sh\ncp summary.json '" << bin.string()
+                                 << "/earlier.json'\nsleep 1000\n";
+  std::ofstream(bin / "timeout") << "#!/bin/sh\necho $3 > '" << bin.string()
+                                 << "/seconds'\nshift 3\nexec /usr/bin/timeout 1 \"$@\"\n";
+  for (const char* const name : {"gnuplot", "timeout"})
+    fs::permissions(bin / name, fs::perms::owner_all);
+  const Outcome outcome = shell("PATH='" + bin.string() + "':$PATH $rollwave " + scene);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_NE(outcome.text.find("scene.svg was not drawn"), std::string::npos) << outcome.text;
+  EXPECT_FALSE(has("scene.svg"));
+  double seconds = 0;
+  std::ifstream(bin / "seconds") >> seconds;
+  EXPECT_GT(seconds, 50);
+  EXPECT_LE(seconds, 60);
+  std::ostringstream earlier;
+  earlier << std::ifstream(bin / "earlier.json").rdbuf();
+  EXPECT_EQ(earlier.str(), read("summary.json"));
 }
 
 // At a road that is nearer there is more contact, for which this rho is too large.

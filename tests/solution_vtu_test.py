@@ -2,6 +2,7 @@
 
 Usage: solution_vtu_test.py PROGRAM FILE.prm DEGREE
 """
+import csv
 import json
 import math
 import subprocess
@@ -122,6 +123,66 @@ for cell in range(grid.GetNumberOfCells()):
         points.EvaluateLocation(reference(0), [1.0, a, 0.0], position, weights)
         outline = min(outline, position[1])
 check(outline >= -distance - spacing ** 2 / 8, "outline above the road")
+
+# Between the nodes of few cells: the trace of solution.vtu on r = b is the polynomial through the
+# nodal values of contact.csv, its points lie at the deformed places of surface.vtu, and the radial
+# stress is the derivative of the displacement.
+def lagrange(nodes, values, x):
+    return sum(values[i] * math.prod((x - nodes[k]) / (nodes[i] - nodes[k])
+                                     for k in range(len(nodes)) if k != i)
+               for i in range(len(nodes)))
+
+
+def number(grid, name, cell, place):
+    """A point field of a cell at a place in its coordinates, both from 0 to 1."""
+    weights = [0.0] * cell.GetNumberOfPoints()
+    position = [0.0, 0.0, 0.0]
+    cell.EvaluateLocation(reference(0), [*place, 0.0], position, weights)
+    field = grid.GetPointData().GetArray(name)
+    return sum(w * field.GetValue(cell.GetPointId(k)) for k, w in enumerate(weights)), position
+
+
+for probed in range(1, 9) if degree == 1 else []:
+    with tempfile.TemporaryDirectory() as directory:
+        run(directory, "high-order", f"Mesh/Degree={probed}", "Mesh/Radial cells=1",
+            "Mesh/Angular cells=12", "Output/Files=solution, surface, contact")
+        grid, surface = read(directory, "solution.vtu"), read(directory, "surface.vtu")
+        with open(directory + "/contact.csv") as file:
+            nodes = [(float(row["z"]), float(row["u"])) for row in csv.DictReader(file)]
+    greatest = max(abs(u) for _, u in nodes)
+    stress_range = grid.GetPointData().GetArray("radial_stress").GetRange()
+    n_probed = 0
+    for k in range(grid.GetNumberOfCells()):
+        cell = grid.GetCell(k)
+        begin, end = (number(grid, "angle", cell, (1, t))[0] for t in (0, 1))
+        own = [node for node in nodes if begin - 1e-5 < node[0] < end + 1e-5]
+        for t in [i / 17 for i in range(18)]:
+            u, position = number(grid, "displacement", cell, (1, t))
+            if len(own) == probed + 1:
+                exact = lagrange(*zip(*own), begin + t * (end - begin))
+                check(abs(u - exact) < 2e-6 * greatest, f"u between nodes, degree {probed}")
+                n_probed += 1
+            step = 0.01
+            slope = sum(sign * number(grid, "displacement", cell, (0.5 + sign * step, t))[0]
+                        for sign in (-1, 1)) / (2 * step * 0.5)
+            stress = number(grid, "radial_stress", cell, (0.5, t))[0]
+            check(abs(slope - stress) < 2e-3 * (stress_range[1] - stress_range[0]),
+                  f"radial stress between nodes, degree {probed}")
+        for i in range(surface.GetNumberOfPoints()):
+            z = surface.GetPointData().GetArray("angle").GetValue(i)
+            if begin <= z <= end:
+                u, position = number(grid, "displacement", cell, (1, (z - begin) / (end - begin)))
+                check(abs(u - surface.GetPointData().GetArray("displacement").GetValue(i))
+                      < 2e-6 * greatest, f"surface, degree {probed}")
+    check(n_probed >= 4 * 18, "cells under the contact")
+
+# One piece, also of many cells: some programs read the last piece only.
+if degree == 1:
+    with tempfile.TemporaryDirectory() as directory:
+        run(directory, "linear", "Mesh/Radial cells=100", "Mesh/Angular cells=600",
+            "Output/Files=solution")
+        with open(directory + "/solution.vtu") as file:
+            check(file.read().count("<Piece") == 1, "one piece")
 
 # The cylinder fills a drum: the gap is zero all around.
 with tempfile.TemporaryDirectory() as directory:

@@ -4,10 +4,13 @@
 #include "rollwave/base/text.h"
 
 #include <boost/algorithm/string/replace.hpp>
+#include <deal.II/base/timer.h>
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <string>
 
 namespace rollwave {
 
@@ -41,32 +44,37 @@ std::string in_single_quotes(const std::string& text) {
   return '\'' + line + '\'';
 }
 
-void draw(const Picture& picture, const fs::path& directory, const std::string& name,
-          WrittenFiles& written) {
-  const std::string script = name + ".gp", svg = name + ".svg";
-  written.write(directory / script,
-                "# gnuplot " + script + " draws " + svg + "\nif (!exists('picture')) picture = '" +
-                    svg + "'\nset terminal svg noenhanced size " + std::to_string(picture.width) +
-                    ',' + std::to_string(picture.height) +
-                    " font 'Helvetica,14' background rgb 'white' fixed\nset encoding utf8\n"
-                    "set output picture\n" +
-                    picture.script + "set output\n");
-  AtomicFile file(directory / svg);
-  std::string messages;
-  if (run_shell(
-          "cd '" +
-              boost::algorithm::replace_all_copy(fs::absolute(directory).string(), "'", "'\\''") +
-              "' && exec gnuplot -d -e \"picture='" + file.part().filename().string() + "'\" " +
-              script + " 2>&1",
-          messages) &&
-      is_complete(file.part())) {
-    written.n_bytes += file.commit();
-    written.files.push_back(directory / svg);
-  } else {
-    std::error_code ignored;
-    fs::remove(directory / svg, ignored); // it would be that of an earlier run
-    written.remarks.push_back(svg + " was not drawn: gnuplot has failed: " +
-                              printable(trimmed(messages)) + "; its script is " + script);
+void draw(const std::vector<Picture>& pictures, const fs::path& directory, WrittenFiles& written) {
+  for (const auto& [name, script, width, height] : pictures)
+    written.write(directory / (name + ".gp"),
+                  "# gnuplot " + name + ".gp draws " + name +
+                      ".svg\nif (!exists('picture')) picture = '" + name +
+                      ".svg'\nset terminal svg noenhanced size " + std::to_string(width) + ',' +
+                      std::to_string(height) +
+                      " font 'Helvetica,14' background rgb 'white' fixed\nset output picture\n" +
+                      script + "set output\n");
+  const std::string change_directory =
+      "cd '" + boost::algorithm::replace_all_copy(fs::absolute(directory).string(), "'", "'\\''") +
+      "' && exec timeout -k 1 ";
+  const dealii::Timer timer;
+  for (const Picture& picture : pictures) {
+    const std::string script = picture.name + ".gp", svg = picture.name + ".svg";
+    AtomicFile file(directory / svg);
+    std::string messages;
+    constexpr double most_seconds = 60; // for all pictures: gnuplot may wait for ever
+    const double left = std::max(most_seconds - timer.wall_time(), 0.1);
+    if (run_shell(change_directory + std::to_string(left) + " gnuplot -d -e \"picture='" +
+                      file.part().filename().string() + "'\" " + script + " 2>&1",
+                  messages) &&
+        is_complete(file.part())) {
+      written.n_bytes += file.commit();
+      written.files.push_back(directory / svg);
+    } else
+      written.remarks.push_back(svg + " was not drawn: gnuplot has " +
+                                (timer.wall_time() > most_seconds
+                                     ? "taken more than a minute"
+                                     : "failed: " + printable(trimmed(messages))) +
+                                "; its script is " + script);
   }
 }
 

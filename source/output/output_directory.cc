@@ -5,13 +5,13 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
 #include <cerrno>
-#include <functional>
-#include <map>
-#include <optional>
-#include <regex>
 #include <sstream>
 #include <system_error>
+#include <tuple>
 #include <unistd.h>
 
 namespace rollwave {
@@ -19,31 +19,6 @@ namespace rollwave {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// The files that runs write, and for the run of a scene the kind that asks for them. A further
-/// output file is added here: later runs that do not write it remove it.
-const std::map<std::string, std::optional<OutputFile>> own_files = {
-    {"summary.json", OutputFile::summary},
-    {"contact.csv", OutputFile::contact},
-    {"parameters.prm", OutputFile::parameters},
-    {"solution.vtu", OutputFile::solution},
-    {"solution.pvtu", {}}, // on several processes, with solution.0.vtu and so on
-    {"surface.vtu", OutputFile::surface},
-    {"road.vtu", OutputFile::surface},
-    {"scene.gp", OutputFile::plot},
-    {"scene.svg", OutputFile::plot},
-    {"study.csv", {}},
-    {"study.txt", {}},
-    {"study.tex", {}},
-    {"study.pvd", {}},
-    {"study-profiles.csv", {}}};
-
-/// True for files that have numbers in their names, and for the pictures of studies.
-bool is_of_own_series(const std::string& name) {
-  static const std::regex series(
-      R"(solution\.\d+\.vtu|study(-(curves|profiles|map|h|unknowns|time))?\.(gp|svg))");
-  return std::regex_match(name, series);
-}
 
 constexpr const char* first_words = "# All parameters of a run of ";
 
@@ -60,55 +35,24 @@ bool is_input(const Parameters& parameters, const fs::path& path) {
   return fs::equivalent(parameters.file, path, ignored);
 }
 
-/// Removes the files of an earlier run in a directory, except those that are @p kept.
-void remove_files(const fs::path& directory, const Parameters& parameters,
-                  const std::function<bool(const std::string&)>& kept,
-                  std::vector<std::string>& removed) {
-  std::error_code ignored;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(directory, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if ((own_files.count(name) > 0 || is_of_own_series(name)) && !kept(name) &&
-        entry.symlink_status(ignored).type() == fs::file_type::regular &&
-        !is_input(parameters, entry.path()))
-      files.push_back(entry.path());
-  }
-  for (const fs::path& file : files)
-    if (fs::remove(file, ignored))
-      removed.push_back(file.lexically_relative(parameters.output.directory).string());
-}
-
-std::vector<std::string> remove_files_of_earlier_run(const Parameters& parameters, bool is_study,
-                                                     bool is_one_process) {
-  const fs::path directory = parameters.output.directory;
-  std::vector<std::string> removed;
-  if (read_file(directory / "parameters.prm").rfind(first_words, 0) != 0 ||
-      (is_study && is_of_same_run(parameters))) // a study that continues
-    return removed;
-  remove_files(
-      directory, parameters,
-      [&](const std::string& name) {
-        const auto own = own_files.find(name);
-        return !is_study && own != own_files.end() && own->second &&
-               parameters.wants(*own->second) && (is_one_process || name != "solution.vtu");
-      },
-      removed);
-  static const std::regex of_one_run(R"(run-\d{3,})");
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(directory, ignored))
-    if (std::regex_match(entry.path().filename().string(), of_one_run)) {
-      remove_files(
-          entry.path(), parameters, [](const std::string&) { return false; }, removed);
-      fs::remove(entry.path(), ignored); // if it is empty
-    }
-  return removed;
-}
-
 } // namespace
 
 void WrittenFiles::write(const fs::path& path, const std::string& content) {
   n_bytes += write_file(path, content);
   files.push_back(path);
+}
+
+void WrittenFiles::note_older_files(const std::vector<fs::path>& older) {
+  std::vector<std::string> names;
+  for (const fs::path& file : older)
+    if (std::find(files.begin(), files.end(), file) == files.end())
+      names.push_back(file.filename().string());
+  constexpr std::size_t most = 20;
+  const std::size_t n_names = names.size();
+  names.resize(std::min(most, n_names));
+  if (n_names > 0)
+    remarks.push_back("older files in this directory: " + boost::algorithm::join(names, ", ") +
+                      (n_names > most ? " and " + std::to_string(n_names - most) + " more" : ""));
 }
 
 void write_parameters(const fs::path& directory, const Parameters& parameters,
@@ -120,13 +64,21 @@ void write_parameters(const fs::path& directory, const Parameters& parameters,
     written.write(path, complete_parameters(parameters));
 }
 
-bool is_of_same_run(const Parameters& parameters) {
-  return read_file(fs::path(parameters.output.directory) / "parameters.prm") ==
-         complete_parameters(parameters);
+void check_own_files(const fs::path& directory, const Parameters& parameters,
+                     const std::set<OutputFile>& kinds) {
+  for (const auto& [kind, name, start] :
+       {std::tuple(OutputFile::parameters, "parameters.prm", first_words),
+        {OutputFile::summary, "summary.json", "{\n  \"program\": \"Rollwave "}})
+    if (const fs::path file = directory / name;
+        kinds.count(kind) > 0 && fs::exists(file) && read_file(file).rfind(start, 0) != 0 &&
+        !(kind == OutputFile::parameters && is_input(parameters, file)))
+      throw BadValue("Output", "Directory",
+                     file.string() + " is not a file of Rollwave, and would be overwritten; choose "
+                                     "another directory, or move the file");
 }
 
-std::vector<std::string> prepare_directory(const Parameters& parameters, bool is_study,
-                                           MPI_Comm communicator) {
+std::vector<fs::path> prepare_directory(const Parameters& parameters, bool is_study,
+                                        MPI_Comm communicator) {
   if (process_number(communicator) > 0)
     return {};
   const fs::path directory = parameters.output.directory;
@@ -139,7 +91,15 @@ std::vector<std::string> prepare_directory(const Parameters& parameters, bool is
   if (error)
     throw BadValue("Output", "Directory",
                    "this directory cannot be made or written into: " + error.message());
-  return remove_files_of_earlier_run(parameters, is_study, is_serial(communicator));
+  check_own_files(directory, parameters,
+                  is_study ? std::set{OutputFile::parameters} : parameters.output.files);
+  std::vector<fs::path> files;
+  if (read_file(directory / "parameters.prm").rfind(first_words, 0) == 0)
+    for (const auto& entry : fs::directory_iterator(directory, error))
+      if (!is_input(parameters, entry.path()))
+        files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 } // namespace rollwave

@@ -1,6 +1,5 @@
 #include "rollwave/output/result_files.h"
 
-#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
@@ -36,42 +35,13 @@ std::string contact_csv(const Result& result, const Units& units) {
   return out.str();
 }
 
-/// Writes the field, each process its own cells if it has any.
-/// @throws NotWritten on all processes
-void write_field(const std::filesystem::path& directory, const Parameters& parameters,
-                 const Solution& solution, WrittenFiles& written) {
-  const MPI_Comm communicator = solution.space().communicator();
-  std::string own; // stays empty where there are more processes than cells
-  for (const auto& cell : solution.space().dof_handler().active_cell_iterators())
-    if (cell->is_locally_owned())
-      own = is_serial(communicator)
-                ? "solution.vtu"
-                : "solution." + std::to_string(process_number(communicator)) + ".vtu";
-  std::string failure;
-  unsigned long n_bytes = 0;
-  if (!own.empty())
-    try {
-      AtomicFile file(directory / own);
-      write_solution_vtu(file.stream(), solution, parameters.output.cells);
-      n_bytes = file.commit();
-    } catch (const NotWritten& error) {
-      failure = error.what();
-    }
-  failure = first_text(communicator, failure);
-  if (!failure.empty())
-    throw NotWritten(failure);
-  std::vector<std::string> pieces;
-  for (const std::string& piece : Utilities::MPI::all_gather(communicator, own))
-    if (!piece.empty()) {
-      pieces.push_back(piece);
-      written.files.push_back(directory / piece);
-    }
-  written.n_bytes += Utilities::MPI::sum(n_bytes, communicator);
-  if (process_number(communicator) == 0 && !is_serial(communicator)) {
-    std::ostringstream whole;
-    write_solution_pvtu(whole, solution, parameters.output.cells, pieces);
-    written.write(directory / "solution.pvtu", whole.str());
-  }
+/// VTU files have numbers of single precision. Those of a scene are of the order of 1 in its units.
+bool fits_single_precision(const Units& units) {
+  const auto fits = [&units](Quantity quantity) {
+    const double unit = units.of(quantity);
+    return unit > 1e-36 && unit < 1e37;
+  };
+  return fits(Quantity::length) && fits(Quantity::pressure) && fits(Quantity::energy_norm);
 }
 
 } // namespace
@@ -80,8 +50,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
                            Solution& solution) {
   const Scene& scene = solution.scene;
   Result& result = solution.result;
-  const MPI_Comm communicator = solution.space().communicator();
-  const bool is_first = process_number(communicator) == 0;
+  const bool is_first = process_number(solution.space().communicator()) == 0;
   WrittenFiles written;
   std::exception_ptr failure;
   {
@@ -94,17 +63,27 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
       written.write(directory / "surface.vtu", surface_vtu(scene, result));
       written.write(directory / "road.vtu", road_vtu(scene));
     }
-    if (parameters.wants(OutputFile::solution))
+    if (parameters.wants(OutputFile::solution)) {
+      const std::string field = solution_vtu(solution, parameters.output.cells);
       try {
-        write_field(directory, parameters, solution, written);
+        if (is_first)
+          written.write(directory / "solution.vtu", field);
       } catch (const NotWritten&) {
         failure = std::current_exception(); // the largest file by far: others may have room
       }
-    if (parameters.wants(OutputFile::plot) && is_first)
-      draw(plot_scene(scene, result), directory, "scene", written);
+    }
+    if ((parameters.wants(OutputFile::solution) || parameters.wants(OutputFile::surface)) &&
+        !fits_single_precision(scene.units))
+      written.remarks.push_back(
+          "VTU files hold numbers of single precision, up to 3e38, and have lost some here; "
+          "choose other units, or see contact.csv and summary.json");
   }
   result.statistics.bytes_written += written.n_bytes;
   write_summary(directory, parameters, solution, written);
+  if (parameters.wants(OutputFile::plot) && is_first) { // last, since gnuplot may hang
+    const RunStatistics::Phase phase(result.statistics, "output");
+    draw({plot_scene(scene, result)}, directory, written);
+  }
   if (failure)
     std::rethrow_exception(failure);
   return written;

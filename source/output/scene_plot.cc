@@ -13,17 +13,22 @@ namespace rollwave {
 
 namespace {
 
-/// Half of the range of angles that is shown: 1.5 times the farther end of contact. Without contact
-/// the range shows the gap, and has at least one node.
+/// Half of the range of angles that is shown: 1.5 times the farther end of contact or, where less
+/// than 1.5 rad remain, a little more than that end. Without contact the range shows the gap, and
+/// has at least one node.
 double shown_angle(const Scene& scene, const Result& result) {
+  constexpr double most = 1.5; // a flat road is far away from there on
   if (!result.contact.ends) {
     double nearest = std::numeric_limits<double>::max(); // node to the lowest point
     for (const ContactRow& row : result.contact_rows)
       nearest = std::min(nearest, std::abs(from_lowest_point(row.angle)));
-    return std::max({0.2, 3 * (scene.road.distance / scene.outer_radius - 1), 1.1 * nearest});
+    return std::min(
+        most, std::max({0.2, 3 * (scene.road.distance / scene.outer_radius - 1), 1.1 * nearest}));
   }
-  return 1.5 * std::max(std::abs(from_lowest_point(result.contact.ends->first)),
-                        std::abs(from_lowest_point(result.contact.ends->second)));
+  const auto& [begin, end] = *result.contact.ends;
+  const double farther =
+      std::max(std::abs(from_lowest_point(begin)), std::abs(from_lowest_point(end)));
+  return std::max(std::min(1.5 * farther, most), 1.02 * farther);
 }
 
 /// The depth of the ends of contact below the lowest point of the surface in contact, in units of
@@ -37,14 +42,15 @@ double depth_of_ends(const Scene& scene, const Result& result) {
   return depth / scene.outer_radius;
 }
 
-/// True if the user has given a material or names of units.
-bool has_own_units(const Units& units) {
-  return units.material.is_given() || !units.material.unit_names.length.empty();
-}
-
 /// The number to draw for a length 1 of the scene: in the user's units, or else in units of b.
 double drawn_length(const Scene& scene) {
   return has_own_units(scene.units) ? scene.units.of(Quantity::length) : 1 / scene.outer_radius;
+}
+
+/// The abscissa of the angle @p x from the lowest point: a length along the road in the user's
+/// units, or else the angle.
+double abscissa(const Scene& scene, double x) {
+  return has_own_units(scene.units) ? scene.road.arc_length(x) * drawn_length(scene) : x;
 }
 
 /// The title as the inside of a string of gnuplot in single quotes.
@@ -101,8 +107,9 @@ void write_data(std::ostream& script, const Scene& scene, const Result& result) 
     script << x * length << ' ' << y * length << '\n';
   script << "EOD\n$contact << EOD\n";
   for (const ContactRow& row : result.contact_rows)
-    script << from_lowest_point(row.angle) << ' ' << std::max(0., row.gap * length) << ' '
-           << row.pressure * pressure_unit << '\n';
+    if (const double x = from_lowest_point(row.angle); std::abs(x) <= scene.road.tangent_angle())
+      script << abscissa(scene, x) << ' ' << std::max(0., row.gap * length) << ' '
+             << row.pressure * pressure_unit << '\n';
   script << "EOD\n";
 }
 
@@ -152,9 +159,9 @@ unset parametric
 set grid
 )";
 
-/// Gap and pressure over the angle.
+/// Gap and pressure along the road.
 const char* const gap = R"(
-set xrange [-angle:angle]
+set xrange [-range:range]
 set tmargin at screen 0.55
 set bmargin at screen 0.36
 set yrange [0:*]
@@ -168,19 +175,24 @@ const char* const pressure = R"(
 set tmargin at screen 0.31
 set bmargin at screen 0.11
 set format x '%g'
-set xlabel 'angle from the lowest point [rad]'
+set xlabel abscissa
 plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
      '$contact' using 1:3 with lines linestyle 1 linecolor rgb '#b3541e'
 )";
 
 } // namespace
 
+bool has_own_units(const Units& units) {
+  return units.material.is_given() || !units.material.unit_names.length.empty();
+}
+
 Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
   // The frame of the zoom has 0.40 of the width and 0.25 of the height, of which 0.36 lie below
   // the lowest point of contact.
   const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
-               zoom = std::max(angle, 1.6 * depth_of_ends(scene, result) / (0.36 * 2 * ratio));
+               zoom = std::min(
+                   1., std::max(angle, 1.6 * depth_of_ends(scene, result) / (0.36 * 2 * ratio)));
   std::ostringstream script;
   script.precision(12);
   write_data(script, scene, result);
@@ -192,23 +204,29 @@ Picture plot_scene(const Scene& scene, const Result& result) {
       has_own_units(scene.units) ? scene.units.in_brackets(Quantity::length) : " / b";
   script << "a = " << scene.inner_radius * length << "\nb = " << b * length
          << "\nc = " << scene.road.distance * length << "\nhalf = 1.08 * b * "
-         << std::max(1.15, largest) << "\nangle = " << std::min(angle, 1.5) << "\nzoom = b * "
-         << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
-         << "\nends = '" << (result.contact.ends ? "ends of contact" : "")
+         << std::max(1.15, largest)
+         << "\nrange = " << abscissa(scene, std::min(angle, scene.road.tangent_angle()))
+         << "\nabscissa = "
+         << in_single_quotes(has_own_units(scene.units) ? "length along the road" + unit
+                                                        : "angle from the lowest point [rad]")
+         << "\nzoom = b * " << zoom << "\nheight = 2 * zoom * " << ratio
+         << "\nunit = " << in_single_quotes(unit) << "\nends = '"
+         << (result.contact.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
          << "\nset multiplot title '" << title_of(scene, result) << "'\n"
          << pictures;
   for (const ContactPatch& patch : result.contact.patches)
     for (const double z : {patch.begin, patch.end})
-      script << "set arrow from " << from_lowest_point(z) << ",graph 0 to " << from_lowest_point(z)
-             << ",graph 1 nohead dashtype 3 linewidth 1.5\n";
+      script << "set arrow from " << abscissa(scene, from_lowest_point(z))
+             << ",graph 0 rto 0,graph 1"
+             << " nohead dashtype 3 linewidth 1.5\n";
   script << gap;
   if (!result.contact.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
   script << "set ylabel " << in_single_quotes("pressure" + pressure_unit_text(scene.units))
          << " offset -1\n"
          << pressure << "unset multiplot\n";
-  return {script.str(), width, height};
+  return {"scene", script.str(), width, height};
 }
 
 } // namespace rollwave

@@ -5,13 +5,13 @@
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <deal.II/base/table_handler.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
-#include <regex>
 #include <tuple>
 
 namespace rollwave {
@@ -77,10 +77,10 @@ void report_history(std::ostream& out, const Result& result, const Units& units)
         << " left out\n";
 }
 
-/// The first file whose name ends as @p pattern says; empty without one.
-std::string first_file(const WrittenFiles& written, const std::string& pattern) {
+/// The first file with this ending; empty without one.
+std::string first_file(const WrittenFiles& written, const std::string& ending) {
   for (const auto& file : written.files)
-    if (std::regex_search(file.string(), std::regex(pattern + '$')))
+    if (boost::algorithm::ends_with(file.string(), ending))
       return file.string();
   return "";
 }
@@ -132,12 +132,11 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches) {
     out << "  contact from " << rounded(patch.begin, 6) << " to " << rounded(patch.end, 6)
-        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad, on "
-        << rounded(patch.length * units.of(Quantity::length), 5) << units.after(Quantity::length)
-        << " of the road";
+        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad";
     if (contact.patches.size() > 1)
-      out << ",\n    force " << rounded(patch.force * units.of(Quantity::force), 9)
-          << units.after(Quantity::force);
+      out << ",\n    on " << rounded(patch.length * units.of(Quantity::length), 5)
+          << units.after(Quantity::length) << " of the road, force "
+          << rounded(patch.force * units.of(Quantity::force), 9) << units.after(Quantity::force);
     out << '\n';
   }
 }
@@ -233,8 +232,9 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
   }
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
-  if (const std::string picture = first_file(written, "\\.svg"); !picture.empty()) {
-    const std::string field = first_file(written, "(study\\.pvd|solution\\.p?vtu)");
+  if (const std::string picture = first_file(written, ".svg"); !picture.empty()) {
+    const std::string field =
+        first_file(written, "study.pvd") + first_file(written, "solution.vtu"); // one of them
     out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field
         << '\n';
   }

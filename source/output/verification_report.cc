@@ -6,6 +6,7 @@
 
 #include <deal.II/base/table_handler.h>
 
+#include <cmath>
 #include <ostream>
 #include <string>
 
@@ -35,7 +36,7 @@ void report_errors(std::ostream& out, const Result& result, const Units& units) 
 } // namespace
 
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
-                         const ExactSolution& exact) {
+                         const ExactSolution& exact, std::optional<double> exact_stiffness) {
   const Units& units = scene.units;
   TableHandler table;
   const std::string exact_title = scene.load ? "exact at this distance" : "exact";
@@ -60,7 +61,12 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
   add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
   add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,
       exact.half_width_accuracy);
+  add("contact length (nip)", Quantity::length, *result_quantity("contact.length").value(result),
+      2 * scene.road.arc_length(exact.half_width), exact.half_width_accuracy);
   add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
+  const auto stiffness = result_quantity("contact.stiffness.vertical_load").value(result);
+  if (exact_stiffness && stiffness && std::isfinite(*stiffness))
+    add("vertical stiffness", Quantity::stiffness, *stiffness, *exact_stiffness, 0);
   if (result.errors && result.errors->exact_distance)
     add("distance c (exact: for the load)", Quantity::length, result.road_distance,
         *result.errors->exact_distance, 1e-10);

@@ -1,17 +1,20 @@
 #include "rollwave/output/vtu.h"
 
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/scene/units.h"
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/fe/fe_q.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
 #include <cmath>
 #include <limits>
-#include <ostream>
+#include <sstream>
 #include <tuple>
+#include <vector>
 
 namespace rollwave {
 
@@ -21,96 +24,78 @@ namespace {
 
 using Patch = DataOutBase::Patch<2>;
 
-/// The patches of cells take several times the memory of the mesh, so that the file has pieces.
-constexpr std::size_t cells_in_piece = 50000;
-
 using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
                                       DataComponentInterpretation::DataComponentInterpretation>>;
 
-/// Makes a patch for each cell, with the element's own nodes at their deformed places.
-class DeformedCells {
-public:
-  explicit DeformedCells(const Solution& solution)
-      : solution(solution), units(solution.scene.units), space(solution.space()),
-        element(dynamic_cast<const FE_Q<2>&>(space.dof_handler().get_fe())),
-        numbering(element.get_poly_space_numbering_inverse()),
-        values(space.mapping(), element, element.get_unit_support_points(),
-               update_quadrature_points | update_values | update_gradients),
-        u(element.n_dofs_per_cell()), gradients(element.n_dofs_per_cell()),
-        n_rows(field_names(solution).size() + 2) {}
+/// The names of scalars and of components of vectors.
+std::vector<std::string> field_names(const Solution& solution) {
+  const Units& units = solution.scene.units;
+  const std::string length = units.in_brackets(Quantity::length);
+  std::vector<std::string> names = {"displacement" + length,
+                                    "radial_stress" + units.in_brackets(Quantity::pressure),
+                                    "radius" + length,
+                                    "angle" + units.in_brackets(Quantity::angle),
+                                    "x",
+                                    "y"};
+  if (solution.certificate)
+    names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
+  return names;
+}
 
-  Patch patch(const DoFHandler<2>::active_cell_iterator& cell, unsigned int index) {
+/// The vectors among them.
+Ranges vectors(const Solution& solution) {
+  return {{4, 5, "displacement_vector" + solution.scene.units.in_brackets(Quantity::length),
+           DataComponentInterpretation::component_is_part_of_vector}};
+}
+
+/// A patch for each cell of this process. Its points are equidistant in (r, z), as VTK's Lagrange
+/// cells have them, and lie at their deformed places. Their fields, then their places, are rows.
+std::vector<Patch> deformed_cells(const Solution& solution) {
+  const RingSpace& space = solution.space();
+  const auto& element = space.dof_handler().get_fe();
+  const QIterated<2> points(QTrapezoid<1>(), element.degree); // r running fastest, as in a patch
+  FEValues<2> values(space.mapping(), element, points,
+                     update_quadrature_points | update_values | update_gradients);
+  std::vector<double> u(points.size());
+  std::vector<Tensor<1, 2>> gradients(points.size());
+  const Units& units = solution.scene.units;
+  const double length = units.length, pressure = units.of(Quantity::pressure),
+               energy_norm = units.of(Quantity::energy_norm);
+  const unsigned int n_rows = field_names(solution).size() + 2;
+  std::vector<Patch> patches;
+  for (const auto& cell : space.dof_handler().active_cell_iterators()) {
+    if (!cell->is_locally_owned())
+      continue;
     values.reinit(cell);
     values.get_function_values(solution.displacement, u);
     values.get_function_gradients(solution.displacement, gradients);
-    const double bound = solution.certificate
-                             ? solution.certificate->cell_bounds[cell->active_cell_index()] *
-                                   units.of(Quantity::energy_norm)
-                             : 0;
-    const double length = units.length, pressure = units.of(Quantity::pressure);
     Patch patch;
-    patch.patch_index = index;
+    patch.patch_index = patches.size();
     patch.reference_cell = ReferenceCells::Quadrilateral;
     patch.n_subdivisions = element.degree;
     patch.points_are_available = true;
-    patch.data.reinit(n_rows, u.size());
-    for (unsigned int i = 0; i < u.size(); ++i) {
-      const unsigned int node = numbering[i];
-      const double r = values.quadrature_point(node)[0], z = values.quadrature_point(node)[1];
-      const Point<2> outwards(std::cos(z), std::sin(z));
+    patch.data.reinit(n_rows, points.size());
+    for (const unsigned int q : values.quadrature_point_indices()) {
+      const double r = values.quadrature_point(q)[0], z = values.quadrature_point(q)[1];
       unsigned int row = 0;
-      const auto add = [&](double value) { patch.data(row++, i) = value; };
-      const auto add_vector = [&](double length) {
-        add(length * outwards[0]);
-        add(length * outwards[1]);
+      const auto add = [&](double value) { patch.data(row++, q) = value; };
+      const auto add_vector = [&](double radius) {
+        add(radius * std::cos(z));
+        add(radius * std::sin(z));
       };
-      add(u[node] * length);
-      add(gradients[node][0] * pressure);
+      add(u[q] * length);
+      add(gradients[q][0] * pressure);
       add(r * length);
       add(z);
-      add_vector(u[node] * length);
+      add_vector(u[q] * length);
       if (solution.certificate)
-        add(bound);
-      add_vector((r + u[node]) * length);
+        add(solution.certificate->cell_bounds[cell->active_cell_index()] * energy_norm);
+      add_vector((r + u[q]) * length);
     }
-    for (const unsigned int vertex : cell->vertex_indices())
-      patch.vertices[vertex] = cell->vertex(vertex);
-    return patch;
+    patches.push_back(std::move(patch));
   }
-
-  /// The names of scalars and of components of vectors.
-  static std::vector<std::string> field_names(const Solution& solution) {
-    const Units& units = solution.scene.units;
-    const std::string length = units.in_brackets(Quantity::length);
-    std::vector<std::string> names = {"displacement" + length,
-                                      "radial_stress" + units.in_brackets(Quantity::pressure),
-                                      "radius" + length,
-                                      "angle" + units.in_brackets(Quantity::angle),
-                                      "x",
-                                      "y"};
-    if (solution.certificate)
-      names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
-    return names;
-  }
-
-  /// The vectors among them.
-  static Ranges vectors(const Solution& solution) {
-    return {{4, 5, "displacement_vector" + solution.scene.units.in_brackets(Quantity::length),
-             DataComponentInterpretation::component_is_part_of_vector}};
-  }
-
-private:
-  const Solution& solution;
-  const Units& units;
-  const RingSpace& space;
-  const FE_Q<2>& element;
-  /// From the order of points in a patch, r running fastest, to the element's own order.
-  const std::vector<unsigned int> numbering;
-  FEValues<2> values;
-  std::vector<double> u;
-  std::vector<Tensor<1, 2>> gradients;
-  const unsigned int n_rows; ///< fields, then the places of the points
-};
+  return patches;
+}
 
 DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
   DataOutBase::VtkFlags flags;
@@ -118,6 +103,14 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
   flags.print_date_and_time = false; // a run repeated gives the same file
   flags.compression_level = decltype(flags.compression_level)::best_speed;
   return flags;
+}
+
+/// The cells of this process as one piece of the file; empty without cells.
+std::string piece(const Solution& solution, const DataOutBase::VtkFlags& flags) {
+  std::ostringstream out;
+  if (const std::vector<Patch> patches = deformed_cells(solution); !patches.empty())
+    DataOutBase::write_vtu_main(patches, field_names(solution), vectors(solution), flags, out);
+  return out.str();
 }
 
 /// The numbers of the scene, for captions.
@@ -137,37 +130,23 @@ void write_field_data(std::ostream& out, const Solution& solution) {
 
 } // namespace
 
-void write_solution_pvtu(std::ostream& out, const Solution& solution, CellKind kind,
-                         const std::vector<std::string>& pieces) {
-  DataOutBase::write_pvtu_record(out, pieces, DeformedCells::field_names(solution),
-                                 DeformedCells::vectors(solution), vtk_flags(solution, kind));
-}
-
-void write_solution_vtu(std::ostream& out, const Solution& solution, CellKind kind) {
-  DeformedCells cells(solution);
+std::string solution_vtu(const Solution& solution, CellKind kind) {
+  const MPI_Comm communicator = solution.space().communicator();
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
-  try {
-    DataOutBase::write_vtu_header(out, flags);
-    write_field_data(out, solution);
-    std::vector<Patch> patches;
-    const auto write_piece = [&] {
-      DataOutBase::write_vtu_main(patches, DeformedCells::field_names(solution),
-                                  DeformedCells::vectors(solution), flags, out);
-      patches.clear();
-    };
-    for (const auto& cell : solution.space().dof_handler().active_cell_iterators())
-      if (cell->is_locally_owned()) {
-        if (patches.size() == cells_in_piece)
-          write_piece();
-        patches.push_back(cells.patch(cell, patches.size()));
-      }
-    write_piece();
-    DataOutBase::write_vtu_footer(out);
-  } catch (const StandardExceptions::ExcIO&) {
-    // The caller checks the stream and names the file.
-    if (!out.fail())
-      throw;
-  }
+  const std::string own = piece(solution, flags);
+  std::ostringstream file;
+  DataOutBase::write_vtu_header(file, flags);
+  write_field_data(file, solution);
+  if (is_serial(communicator))
+    file << own;
+  else
+    for (unsigned int rank = 0; rank < count_processes(communicator); ++rank) {
+      const std::string of_rank = Utilities::MPI::broadcast(communicator, own, rank);
+      if (process_number(communicator) == 0)
+        file << of_rank;
+    }
+  DataOutBase::write_vtu_footer(file);
+  return file.str();
 }
 
 } // namespace rollwave

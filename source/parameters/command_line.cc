@@ -4,6 +4,10 @@
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
 
+#include <boost/algorithm/string/replace.hpp>
+
+#include <sstream>
+
 namespace rollwave {
 
 std::string usage() {
@@ -19,12 +23,43 @@ Usage:
 
 Options:
   --verify                    compare the results with the exact solution of the scene
+  --part K/N                  make every N-th run of a study, beginning with the K-th; the same
+                              command without it joins the parts
   --output DIR                output directory instead of Output/Directory
   --set "Section/Key=value"   overrides the file; may be repeated
 
 Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 )";
 }
+
+namespace {
+
+/// "K/N" with 1 <= K <= N. @throws BadInput
+StudyPart parse_part(const std::string& text) {
+  StudyPart part;
+  char slash = 0, rest = 0;
+  std::istringstream in(text);
+  if (in >> part.number >> slash >> part.count && slash == '/' && !(in >> rest) &&
+      text.find('-') == std::string::npos && 1 <= part.number && part.number <= part.count)
+    return part;
+  throw BadInput("--part " + in_quotes(text) +
+                 " is not of the form K/N with 1 <= K <= N, as in --part 1/4");
+}
+
+/// The call for a shell, without the option --part and its value.
+std::string command_without_part(const std::vector<std::string>& arguments) {
+  std::string command = "rollwave";
+  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument)
+    if (*argument == "--part")
+      ++argument;
+    else if (argument->find_first_of(" \t'\"\\$`&|;<>()*?[]#~{}!") == std::string::npos)
+      command += ' ' + *argument;
+    else
+      command += " '" + boost::algorithm::replace_all_copy(*argument, "'", "'\\''") + '\'';
+  return command;
+}
+
+} // namespace
 
 CommandLine read_command_line(const std::vector<std::string>& arguments) {
   CommandLine line;
@@ -45,6 +80,8 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       line.action = CommandLine::Action::quantities;
     else if (*argument == "--verify")
       line.verify = true;
+    else if (*argument == "--part")
+      line.part = parse_part(option_value());
     else if (*argument == "--output")
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
     else if (*argument == "--set")
@@ -59,6 +96,8 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   }
   if (line.action == CommandLine::Action::run && line.file.empty())
     throw BadInput("no parameter file given\n\n" + usage());
+  if (line.part)
+    line.joining_command = command_without_part(arguments);
   return line;
 }
 

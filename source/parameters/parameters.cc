@@ -191,7 +191,7 @@ struct KeysOfParameters {
   Keys keys{parameters.settings};
 
   KeysOfParameters() { declare(keys, parameters); }
-  void set(const std::vector<Setting>& settings);
+  void set(const std::vector<Setting>& further);
 };
 
 /// The last setting of a key of section Road, nullptr without one or for "none".
@@ -207,9 +207,10 @@ const Setting* last_unless_none(const std::vector<Setting>& settings, const char
 }
 
 /// The later one of distance and load holds; the other is set to none.
-void KeysOfParameters::set(const std::vector<Setting>& settings) {
-  for (const Setting& setting : settings)
+void KeysOfParameters::set(const std::vector<Setting>& further) {
+  for (const Setting& setting : further)
     keys.set(setting);
+  const std::vector<Setting> settings = parameters.settings;
   const Setting* const distance = last_unless_none(settings, "Distance");
   const Setting* const load = last_unless_none(settings, "Load");
   if (!distance && !load && last_of(settings, "Road/Distance"))
@@ -268,6 +269,21 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   KeysOfParameters read;
   read.set(settings);
   return read.parameters;
+}
+
+std::vector<RunOptions> read_options(const std::vector<Setting>& shared,
+                                     const std::vector<std::vector<Setting>>& further) {
+  KeysOfParameters read;
+  for (const Setting& setting : shared)
+    read.keys.set(setting);
+  const Parameters before = read.parameters;
+  std::vector<RunOptions> options;
+  for (const std::vector<Setting>& settings : further) {
+    read.parameters = before; // the variables of the keys stay where they are
+    read.set(settings);
+    options.push_back(read.parameters);
+  }
+  return options;
 }
 
 void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {

@@ -13,9 +13,6 @@
 
 namespace rollwave {
 
-namespace {
-
-/// Why something failed, in one line, without the exception's own advice.
 std::string reason_of(const std::exception& failure) {
   if (const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure))
     return shortage->reason;
@@ -30,8 +27,6 @@ std::string reason_of(const std::exception& failure) {
   std::replace(reason.begin(), reason.end(), '\n', ' ');
   return reason;
 }
-
-} // namespace
 
 void attempt(const std::function<void()>& compute, const std::string& missing,
              const std::string& advice, MPI_Comm communicator,

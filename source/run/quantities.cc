@@ -38,7 +38,7 @@ Quantities mesh_quantities() {
       {"scene.road_distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
        [](const Result& r) { return r.road_distance; }},
       {"scene.deflection", "deflection", "b - c", Quantity::length,
-       Shown::screen | Shown::varied_table, all_digits,
+       Shown::screen | Shown::scene_table, all_digits,
        [](const Result& r) { return r.deflection; }},
       {"scene.relative_deflection", "deflection over thickness", "", Quantity::number,
        Shown::screen, 3, [](const Result& r) { return r.relative_deflection; }},
@@ -65,8 +65,16 @@ Quantities load_quantities() {
   };
   return {
       {"contact.vertical_load", "vertical load", "", Quantity::force,
-       Shown::screen | Shown::curve | Shown::varied_table, all_digits,
+       Shown::screen | Shown::curve | Shown::scene_table, all_digits,
        [](const Result& r) { return r.contact.loads.vertical; }},
+      {"contact.length", "contact length (nip)", "", Quantity::length,
+       Shown::screen | Shown::curve | Shown::scene_table, 5,
+       [](const Result& r) {
+         double length = 0;
+         for (const ContactPatch& patch : r.contact.patches)
+           length += patch.length;
+         return length;
+       }},
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.loads.total; }},
@@ -82,7 +90,7 @@ Quantities load_quantities() {
       {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
        all_digits, optional_member(&Result::distance_bounds, &Bounds::upper)},
       {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
-       Shown::screen | Shown::curve, 4,
+       Shown::screen | Shown::curve | Shown::scene_table, 4,
        stiffness_of([](const Loads& stiffness) { return stiffness.vertical; })},
       {"contact.stiffness.force", "stiffness -dF/dc", "", Quantity::stiffness, 0, 4,
        stiffness_of([](const Loads& stiffness) { return stiffness.total; })},
@@ -94,7 +102,8 @@ Quantities load_quantities() {
 Quantities contact_quantities() {
   return {
       {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
-       Shown::screen | Shown::curve, 5, [](const Result& r) { return r.contact.peak_pressure; }},
+       Shown::screen | Shown::curve | Shown::scene_table, 5,
+       [](const Result& r) { return r.contact.peak_pressure; }},
       {"contact.half_width", "half-width of contact", "", Quantity::angle, Shown::curve, all_digits,
        [](const Result& r) {
          return r.contact.patches.size() < 2 ? r.contact.half_width() : not_known;
@@ -103,14 +112,6 @@ Quantities contact_quantities() {
        [](const Result& r) { return r.contact.ends ? r.contact.ends->first : not_known; }},
       {"contact.right_end", "right end of the last patch", "", Quantity::angle, 0, all_digits,
        [](const Result& r) { return r.contact.ends ? r.contact.ends->second : not_known; }},
-      {"contact.length", "length of the road in contact", "", Quantity::length, Shown::curve,
-       all_digits,
-       [](const Result& r) {
-         double length = 0;
-         for (const ContactPatch& patch : r.contact.patches)
-           length += patch.length;
-         return length;
-       }},
       {"contact.patch_count", "patches", "", Quantity::count, 0, all_digits,
        [](const Result& r) { return r.contact.patches.size(); }},
       {"contact.active_nodes", "nodes in contact", "", Quantity::count, 0, all_digits,
@@ -132,7 +133,7 @@ Quantities energy_quantities() {
        Quantity::energy_norm, 0, 3,
        optional_member(&Result::certified, &CertifiedError::energy_norm)},
       {"error.certified_relative", "guaranteed bound of the relative error", "certified",
-       Quantity::number, Shown::table | Shown::orders | Shown::upper_bound, 3,
+       Quantity::number, Shown::tables | Shown::orders | Shown::upper_bound, 3,
        optional_member(&Result::certified, &CertifiedError::relative)},
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
        0, 3, optional_member(&Result::certified, &CertifiedError::force_data)},
@@ -157,7 +158,7 @@ Quantities error_quantities() {
       {"error.exact_energy_norm", "true error in the energy norm", "", Quantity::energy_norm, 0, 3,
        if_resolved(optional_member(&Result::errors, &TrueErrors::energy_norm))},
       {"error.exact_relative", "true relative error in the energy norm", "error", Quantity::number,
-       Shown::table | Shown::orders, 3,
+       Shown::tables | Shown::orders, 3,
        if_resolved(optional_member(&Result::errors, &TrueErrors::relative_energy_norm))},
       {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,
        optional_member(&Result::errors, &TrueErrors::l2_norm)},
@@ -171,7 +172,7 @@ Quantities error_quantities() {
       {"error.exact_half_width", "true error of the half-width", "", Quantity::angle, 0, 3,
        optional_member(&Result::errors, &TrueErrors::half_width)},
       {"error.exact_distance", "true error of the distance for a given load", "error of c",
-       Quantity::length, Shown::table | Shown::orders, 3,
+       Quantity::length, Shown::tables | Shown::orders, 3,
        [](const Result& r) -> std::optional<double> {
          if (!r.errors || !r.errors->exact_distance)
            return {};
@@ -228,12 +229,12 @@ Quantities work_quantities() {
             &RunStatistics::dense_factorisations);
   add_count("sparse_solves", "solutions with a factor of a sparse matrix",
             &RunStatistics::sparse_solves);
-  add_count("bytes_written", "bytes written except those of summary.json",
+  add_count("bytes_written", "bytes written before summary.json and pictures",
             &RunStatistics::bytes_written);
   for (const std::string& phase : RunStatistics::phase_names())
     all.push_back({"seconds." + phase, "seconds of the phase " + phase, "", Quantity::number, 0, 3,
                    [phase](const Result& r) { return r.statistics.seconds(phase); }});
-  all.push_back({"seconds.total", "seconds", "seconds", Quantity::number, Shown::table, 3,
+  all.push_back({"seconds.total", "seconds", "seconds", Quantity::number, Shown::tables, 3,
                  [](const Result& r) { return r.statistics.total_seconds(); }});
   all.push_back({"peak_memory_mib", "largest memory of a process in MiB", "", Quantity::number, 0,
                  4, [](const Result& r) { return r.peak_memory_mib; }});
@@ -288,8 +289,8 @@ void print_quantities(std::ostream& out) {
         << units.unit(quantity.quantity).name << " |";
     const char* separator = " ";
     for (const auto& [flag, place] : {std::pair(Shown::screen, "screen"),
-                                      {Shown::table, "study.txt"},
-                                      {Shown::varied_table, "study.txt if it differs between runs"},
+                                      {Shown::table, "study.txt of meshes or methods"},
+                                      {Shown::scene_table, "study.txt of scenes"},
                                       {Shown::orders, "orders"},
                                       {Shown::curve, "curves"}})
       if (quantity.shown & flag) {

@@ -10,7 +10,9 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <optional>
 #include <ostream>
+#include <utility>
 
 namespace rollwave {
 
@@ -46,14 +48,24 @@ Fit fit(const std::vector<double>& x, const std::vector<double>& y) {
   return {xy / xx, std::sqrt(rest / (n - 2) / xx)};
 }
 
-/// The runs of a family that are solved, each with a mesh that is at least 1.5 times finer or
-/// coarser than the one before: others would give orders by chance.
+/// The abscissa of the orders: h of uniform meshes, the largest diameter of a cell; N^(-1/2) of
+/// adaptive ones, N the number of unknowns. nullopt for a run that is not solved.
+std::optional<double> abscissa(const Study& study, const Family& family, unsigned int run) {
+  const auto n_unknowns = study.value(run, "mesh.dofs");
+  return family.is_adaptive && n_unknowns ? 1 / std::sqrt(*n_unknowns)
+                                          : study.value(run, "mesh.h_max");
+}
+
+constexpr double least_ratio = 1.2; ///< of the abscissae of two meshes
+
+/// The runs of a family that are solved, each with another abscissa than the one before by the
+/// least ratio: others would give orders by chance.
 std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   std::vector<unsigned int> meshes;
   for (const unsigned int run : family.runs)
-    if (const auto unknowns = study.value(run, "mesh.dofs")) {
-      const double before = meshes.empty() ? 0 : *study.value(meshes.back(), "mesh.dofs");
-      if (*unknowns >= 1.5 * before || before >= 1.5 * *unknowns)
+    if (const auto x = abscissa(study, family, run)) {
+      const double before = meshes.empty() ? 0 : *abscissa(study, family, meshes.back());
+      if (*x >= least_ratio * before || before >= least_ratio * *x)
         meshes.push_back(run);
     }
   return meshes;
@@ -66,11 +78,30 @@ bool is_known(const Study& study, const std::vector<unsigned int>& meshes,
                      [&](unsigned int run) { return study.value(run, error).value_or(0) > 0; });
 }
 
+/// True if from each mesh to the next the cells get smaller, or larger, in both directions.
+bool changes_both_directions(const Study& study, const std::vector<unsigned int>& meshes) {
+  const auto n_cells = [&](unsigned int run) {
+    const auto& mesh = study.plans[run].parameters.mesh;
+    return std::pair(std::ldexp(mesh.radial_cells, mesh.global_refinements),
+                     std::ldexp(mesh.angular_cells, mesh.global_refinements));
+  };
+  return std::adjacent_find(meshes.begin(), meshes.end(), [&](unsigned int one, unsigned int next) {
+           const auto [radial, angular] = n_cells(one);
+           const auto [next_radial, next_angular] = n_cells(next);
+           return (next_radial - radial) * (next_angular - angular) <= 0;
+         }) == meshes.end();
+}
+
 /// The errors on all meshes with their orders from one to the next.
-void print_errors(std::ostream& out, const Study& study, const std::vector<unsigned int>& meshes) {
+void print_errors(std::ostream& out, const Study& study, const Family& family,
+                  const std::vector<unsigned int>& meshes) {
   dealii::ConvergenceTable table;
-  for (const unsigned int run : meshes)
+  const std::string inverse = family.is_adaptive ? "unknowns^(1/2)" : "1/h";
+  for (const unsigned int run : meshes) {
     table.add_value("unknowns", static_cast<unsigned int>(*study.value(run, "mesh.dofs")));
+    table.add_value(inverse, 1 / *abscissa(study, family, run));
+  }
+  table.set_precision(inverse, 4);
   for (const ResultQuantity& error : errors()) {
     const std::string &name = error.name,
                       title = error.symbol + study.units().in_brackets(error.quantity);
@@ -82,25 +113,28 @@ void print_errors(std::ostream& out, const Study& study, const std::vector<unsig
       }
       table.set_precision(title, 3); // after the first digit
       table.set_scientific(title, true);
-      table.evaluate_convergence_rates(title, "unknowns",
-                                       dealii::ConvergenceTable::reduction_rate_log2, 2);
+      table.evaluate_convergence_rates(title, inverse,
+                                       dealii::ConvergenceTable::reduction_rate_log2, 1);
     }
   }
   out << table_text(table);
 }
 
 /// The orders over the last four meshes.
-void print_fits(std::ostream& out, const Study& study, std::vector<unsigned int> meshes) {
+void print_fits(std::ostream& out, const Study& study, const Family& family,
+                std::vector<unsigned int> meshes) {
   constexpr std::size_t most_meshes = 4;
   meshes.erase(meshes.begin(), meshes.end() - std::min(most_meshes, meshes.size()));
-  const auto expected = study.value(meshes.back(), "error.expected_order");
+  const auto expected = family.is_adaptive || changes_both_directions(study, meshes)
+                            ? study.value(meshes.back(), "error.expected_order")
+                            : std::nullopt;
   std::string separator = "Fitted, +- standard error: ";
   for (const ResultQuantity& error : errors()) {
     const std::string &name = error.name, title = error.symbol;
     if (is_known(study, meshes, name)) {
       std::vector<double> x, y;
       for (const unsigned int run : meshes) {
-        x.push_back(std::log(*study.value(run, "mesh.dofs")) / 2);
+        x.push_back(-std::log(*abscissa(study, family, run)));
         y.push_back(-std::log(*study.value(run, name)));
       }
       const Fit order = fit(x, y);
@@ -145,16 +179,15 @@ void report_orders(std::ostream& out, const Study& study) {
     if (meshes.size() < 2 || !has_errors)
       continue;
     has_orders = true;
-    out << "\nOrders in "
-        << (family.is_adaptive ? "unknowns^(-1/2), adaptive meshes" : "h ~ unknowns^(-1/2)")
-        << (family.name.empty() ? "" : ", ") << family.name
-        << (meshes.size() < family.runs.size()
-                ? ", only meshes whose unknowns differ by a factor of 1.5 or more"
-                : "")
-        << '\n';
-    print_errors(out, study, meshes);
+    const std::string x = family.is_adaptive ? "unknowns^(-1/2)" : "h";
+    out << "\nOrders in " << x << (family.is_adaptive ? ", adaptive meshes" : "")
+        << (family.name.empty() ? "" : ", ") << family.name;
+    if (meshes.size() < family.runs.size())
+      out << ", only meshes whose " << x << " differs by a factor of " << least_ratio << " or more";
+    out << '\n';
+    print_errors(out, study, family, meshes);
     if (meshes.size() > 2)
-      print_fits(out, study, meshes);
+      print_fits(out, study, family, meshes);
   }
   if (has_orders && study.has("error.exact_relative"))
     out << (study.has("error.certified_relative") ? "certified and error are" : "error is")

@@ -8,10 +8,12 @@
 #include <boost/algorithm/string/replace.hpp>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <set>
+#include <charconv>
+#include <cmath>
+#include <map>
 #include <sstream>
+#include <system_error>
+#include <unordered_map>
 
 namespace rollwave {
 
@@ -24,6 +26,7 @@ std::string csv_field(std::string text) {
   return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
 }
 
+/// The fields of a line; none if a quotation mark is missing.
 std::vector<std::string> csv_fields(const std::string& line) {
   std::vector<std::string> fields(1);
   bool is_quoted = false;
@@ -39,7 +42,7 @@ std::vector<std::string> csv_fields(const std::string& line) {
       fields.back() += c;
     before = c;
   }
-  return fields;
+  return is_quoted ? std::vector<std::string>() : fields;
 }
 
 /// The fields by which runs differ, at the beginning of a line.
@@ -50,21 +53,51 @@ std::string key_fields(const RunPlan& plan) {
   return fields;
 }
 
-/// The run of the fields after those by which runs differ.
-StudyRun read_run(const std::vector<std::string>& fields, std::size_t n_key_fields) {
+/// The finite number that is all of a field.
+std::optional<double> read_number(const std::string& field) {
+  double number = 0;
+  const char* const end = field.data() + field.size();
+  const auto [rest, error] = std::from_chars(field.data(), end, number);
+  const bool is_number = error == std::errc() && rest == end && std::isfinite(number);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+/// The numbers of the runs with each digest, among those that are wanted.
+std::unordered_map<std::string, std::vector<unsigned int>> runs_by_digest(const Study& study) {
+  std::unordered_map<std::string, std::vector<unsigned int>> runs;
+  for (const unsigned int run : study.wanted_runs())
+    runs[study.plans[run].digest].push_back(run);
+  return runs;
+}
+
+/// The solved run of a line; nullopt if it has none, or a field that cannot be read. The varied
+/// keys, of which another study has others, come first: the other fields are counted from the end.
+std::optional<StudyRun> read_run(const std::string& line) {
+  const auto fields = csv_fields(line);
+  const auto& quantities = result_quantities();
+  const std::size_t n_others = 8; // solved, published_steps, ..., files; shared, run
+  if (fields.size() < quantities.size() + n_others)
+    return {};
+  auto field = fields.end() - (quantities.size() + n_others);
+  if (*field != "1")
+    return {};
+  field += 2; // after solved and published_steps
   StudyRun run;
-  auto field = fields.begin() + n_key_fields + 2; // after solved and published_steps
   run.reference = *field++;
   run.failure = *field++;
   run.remarks = split(*field++, '|');
   run.files = *field++;
-  for (const ResultQuantity& quantity : result_quantities()) {
-    if (!field->empty())
-      run.values[quantity.name] = std::strtod(field->c_str(), nullptr);
+  for (const ResultQuantity& quantity : quantities) {
+    if (!field->empty()) {
+      const auto value = read_number(*field);
+      if (!value)
+        return {};
+      run.values[quantity.name] = *value;
+    }
     ++field;
   }
   run.shared = *field;
-  return run;
+  return run.is_solved() ? std::optional(run) : std::nullopt;
 }
 
 } // namespace
@@ -77,7 +110,7 @@ std::string csv_header(const Study& study) {
   line += "solved,published_steps,reference,failure,remarks,files";
   for (const ResultQuantity& quantity : result_quantities())
     line += ',' + quantity.name + study.units().in_brackets(quantity.quantity);
-  return line + ",shared\n";
+  return line + ",shared,run\n";
 }
 
 std::string csv_row(const Study& study, unsigned int number) {
@@ -89,29 +122,21 @@ std::string csv_row(const Study& study, unsigned int number) {
   for (const std::string& text : {run.reference, run.failure, remarks, run.files})
     line += ',' + csv_field(text);
   for (const ResultQuantity& quantity : result_quantities()) {
-    const auto value = study.value(number, quantity.name);
-    line += ',' + (value ? shortest_text(*value) : "");
+    const auto value = run.values.find(quantity.name);
+    line += ',' + (value != run.values.end() ? shortest_text(value->second) : "");
   }
-  return line + ',' + csv_field(run.shared) + '\n';
+  return line + ',' + csv_field(run.shared) + ',' + plan.digest + '\n';
 }
 
 void read_csv(const std::string& text, Study& study) {
-  const std::string header = csv_header(study);
-  if (text.rfind(header, 0) != 0)
-    return;
-  std::set<std::string> lines;
-  std::istringstream in(text.substr(0, text.rfind('\n') + 1));
-  for (std::string line; std::getline(in, line);)
-    lines.insert(line);
-  for (unsigned int i = 0; i < study.plans.size(); ++i) {
-    const std::string start = key_fields(study.plans[i]);
-    const auto line = lines.lower_bound(start + "1,"); // solved
-    if (line == lines.end() || line->rfind(start + "1,", 0) != 0)
-      continue;
-    const auto fields = csv_fields(*line);
-    if (fields.size() == csv_fields(header).size())
-      study.runs[i] = read_run(fields, csv_fields(start).size() - 1);
-  }
+  const auto runs_of = runs_by_digest(study);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const auto runs = runs_of.find(trimmed(line.substr(line.rfind(',') + 1)));
+        runs != runs_of.end())
+      if (const auto row = read_run(line))
+        for (const unsigned int run : runs->second)
+          study.runs[run] = row;
 }
 
 std::string profiles_header(const Study& study) {
@@ -122,21 +147,26 @@ std::string profiles_header(const Study& study) {
 std::string profile_rows(const Study& study, unsigned int run) {
   std::string rows;
   for (const auto& [z, pressure] : study.runs[run]->pressure)
-    rows += std::to_string(run + 1) + ',' + shortest_text(z) + ',' + shortest_text(pressure) + '\n';
+    rows += study.plans[run].digest + ',' + shortest_text(z) + ',' + shortest_text(pressure) + '\n';
   return rows;
 }
 
 void read_profiles(const std::string& text, Study& study) {
+  const auto runs_of = runs_by_digest(study);
+  std::unordered_map<std::string, std::map<double, double>> profiles;
   std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    unsigned int run = 0;
-    double z = 0, pressure = 0;
-    if (std::sscanf(line.c_str(), "%u,%lf,%lf", &run, &z, &pressure) == 3 && run > 0 &&
-        run <= study.runs.size() && study.runs[run - 1])
-      study.runs[run - 1]->pressure.emplace_back(z, pressure);
+  for (std::string line; std::getline(lines, line);) {
+    const auto fields = csv_fields(line);
+    if (fields.size() != 3 || runs_of.count(fields[0]) == 0)
+      continue;
+    const auto z = read_number(fields[1]), pressure = read_number(trimmed(fields[2]));
+    if (z && pressure)
+      profiles[fields[0]][*z] = *pressure;
   }
+  for (const auto& [digest, profile] : profiles)
+    for (const unsigned int run : runs_of.at(digest))
+      if (auto& row = study.runs[run])
+        row->pressure.assign(profile.begin(), profile.end());
 }
 
 } // namespace rollwave

@@ -2,12 +2,15 @@
 
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/study/study_pictures.h"
+#include "rollwave/study/study_runner.h"
 #include "rollwave/study/study_table.h"
 
 #include <deal.II/base/data_out_base.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
+#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -17,17 +20,26 @@ namespace rollwave {
 
 namespace {
 
-/// The fields of the runs with the number of the key that varies fastest, or else of the run, as
-/// time.
+/// The times of the runs in study.pvd, each of its own: the numbers of the key, if a single one
+/// varies; else the numbers of the runs.
+std::vector<double> times_of(const Study& study) {
+  std::vector<double> times;
+  if (study.plans.front().varied.size() == 1)
+    times = fastest_numbers(study);
+  if (std::set(times.begin(), times.end()).size() < study.runs.size()) {
+    times.resize(study.runs.size());
+    std::iota(times.begin(), times.end(), 1);
+  }
+  return times;
+}
+
 std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
-  const auto times = fastest_numbers(study);
+  const auto times = times_of(study);
   std::vector<std::pair<double, std::string>> files;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
-    for (const char* const name : {"solution.vtu", "solution.pvtu"})
-      if (study.runs[run] && !study.runs[run]->files.empty() &&
-          std::filesystem::exists(directory / study.runs[run]->files / name))
-        files.emplace_back(times.empty() ? run + 1 : times[run],
-                           study.runs[run]->files + '/' + name);
+    if (study.runs[run] && !study.runs[run]->files.empty() &&
+        std::filesystem::exists(directory / study.runs[run]->files / "solution.vtu"))
+      files.emplace_back(times[run], study.runs[run]->files + "/solution.vtu");
   std::ostringstream text;
   dealii::DataOutBase::write_pvd_record(text, files);
   return text.str();
@@ -35,7 +47,8 @@ std::string pvd_of(const Study& study, const std::filesystem::path& directory) {
 
 } // namespace
 
-WrittenFiles write_study(const Parameters& parameters, const Study& study) {
+WrittenFiles write_study(const Parameters& parameters, const Study& study,
+                         std::vector<std::filesystem::path> older) {
   const std::filesystem::path directory = parameters.output.directory;
   WrittenFiles written;
   for (const char* const name : {"study.csv", "study-profiles.csv", "parameters.prm"})
@@ -52,6 +65,16 @@ WrittenFiles write_study(const Parameters& parameters, const Study& study) {
                                      [](const auto& run) { return run && run->is_solved(); });
   if (parameters.wants(OutputFile::plot) && is_solved)
     draw_study(study, directory, written);
+  std::set<std::string> own;
+  for (const auto& run : study.runs)
+    if (run)
+      own.insert(run->files);
+  const auto is_of_this_study = [&](const std::filesystem::path& file) {
+    const std::string name = file.filename().string();
+    return own.count(name) > 0 || is_table_of_part(name);
+  };
+  older.erase(std::remove_if(older.begin(), older.end(), is_of_this_study), older.end());
+  written.note_older_files(older);
   return written;
 }
 

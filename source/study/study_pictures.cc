@@ -2,7 +2,9 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
+#include "rollwave/output/scene_plot.h"
 #include "rollwave/run/quantities.h"
+#include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 #include "rollwave/study/study_plot.h"
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -45,18 +48,31 @@ bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
 }
 
+/// The keys of which runs have different values.
+std::set<std::string> differing_keys(const Study& study) {
+  std::map<std::string, std::map<std::string, std::size_t>> n_runs; // by key and value
+  for (const RunPlan& plan : study.plans)
+    for (const auto& settings : {plan.scene_settings, plan.varied})
+      for (const Setting& setting : settings)
+        ++n_runs[setting.path()][setting.value];
+  std::set<std::string> keys;
+  for (const auto& [key, values] : n_runs)
+    if (values.begin()->second < study.plans.size())
+      keys.insert(key);
+  if (keys.count("Road/Distance") + keys.count("Road/Load") > 0) // they replace each other
+    keys.insert({"Road/Distance", "Road/Load"});
+  return keys;
+}
+
 /// The values that all runs share: the keys that titles name, and others of the scene that are not
 /// at their defaults.
 std::string title_of(const Study& study) {
   const RunPlan& plan = study.plans.front();
-  const std::vector<Setting>& settings = plan.parameters.settings;
+  const std::set<std::string> differing = differing_keys(study);
   std::string title;
   for (const Key& key : all_keys()) {
-    const Setting setting{key.section, key.name, value_of(key, settings), ""};
-    const bool is_shared =
-        std::all_of(study.plans.begin(), study.plans.end(), [&](const RunPlan& other) {
-          return value_of(key, other.parameters.settings) == setting.value;
-        });
+    const Setting setting{key.section, key.name, value_of(key, study.settings), ""};
+    const bool is_shared = differing.count(setting.path()) == 0;
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
     if (is_shared && is_named && setting.value != "none")
@@ -70,6 +86,7 @@ std::string title_of(const Study& study) {
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
+  const bool has_marks = !marks.empty() && study.has(marks);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     const Setting* const last = &fastest_key(study, plan);
@@ -78,10 +95,15 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     // The runs of one curve follow each other, so that a new title begins a new curve.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
+    if (std::isnan(x[run]))
+      continue;
     curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
-    if (!marks.empty() && study.has(marks))
+    if (has_marks)
       curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
   }
+  for (Curve& curve : curves)
+    std::stable_sort(curve.points.begin(), curve.points.end(),
+                     [](const auto& left, const auto& right) { return left.first < right.first; });
   return curves;
 }
 
@@ -133,6 +155,15 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
   return panels;
 }
 
+/// True if no run has a value: gnuplot refuses such a panel.
+bool is_empty(const Panel& panel) {
+  for (const Curve& curve : panel.curves)
+    for (const auto& [x, y] : curve.points)
+      if (!std::isnan(y))
+        return false;
+  return true;
+}
+
 /// The error over the quantity @p x for each family of runs that differ in the fineness of their
 /// meshes: the true error or, if that is not known, its bound.
 /// @param order_factor slopes over expected orders; 0 for none
@@ -161,33 +192,29 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-/// At most most_curves runs: at about equal distances of the key that varies, where its numbers
-/// @p x are known and no other key varies.
-std::set<unsigned int> runs_to_show(const Study& study, const std::vector<double>& x) {
-  const auto numbers = equidistant_numbers(study.runs.size(), most_curves);
-  if (x.empty() || study.first_key_of_part.size() > 1 || x.size() <= most_curves)
-    return {numbers.begin(), numbers.end()};
-  const auto [least, largest] = std::minmax_element(x.begin(), x.end());
-  std::set<unsigned int> runs;
-  for (unsigned int i = 0; i < most_curves; ++i) {
-    const double wanted = *least + (*largest - *least) * i / (most_curves - 1);
-    const auto nearest = std::min_element(x.begin(), x.end(), [&](double left, double right) {
-      return std::abs(left - wanted) < std::abs(right - wanted);
-    });
-    runs.insert(nearest - x.begin());
-  }
-  return runs;
+/// The road of a run that has ended, in the user's units.
+Road road_of(const Study& study, unsigned int run) {
+  const RunOptions& parameters = study.plans[run].parameters;
+  return {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
+          parameters.road.curvature};
 }
 
-Panel profile_panel(const Study& study, const std::vector<double>& x) {
-  Panel panel{"angle from the lowest point [rad]",
-              "contact pressure" + study.units().in_brackets(Quantity::pressure),
+/// Pressures over the length along the road if the user has given a material or units, otherwise
+/// over the angle.
+Panel profile_panel(const Study& study) {
+  const Units units = study.units();
+  const bool is_length = has_own_units(units);
+  Panel panel{is_length ? "length along the road" + units.in_brackets(Quantity::length)
+                        : "angle from the lowest point [rad]",
+              "contact pressure" + units.in_brackets(Quantity::pressure),
               {}};
-  for (const unsigned int run : runs_to_show(study, x))
+  for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(from_lowest_point(z), pressure);
+        panel.curves.back().points.emplace_back(
+            is_length ? road_of(study, run).arc_length(from_lowest_point(z)) : from_lowest_point(z),
+            pressure);
     }
   return panel;
 }
@@ -198,8 +225,8 @@ std::optional<Picture> map_of_result(const Study& study) {
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
   const auto& varied = study.plans.front().varied;
-  if (!std::all_of(varied.begin(), varied.end(), is_of_scene) || x.empty() || y.empty() ||
-      x.front() == x.back() || y.front() == y.back())
+  if (!study.is_of_scenes() || x.empty() || y.empty() || x.front() == x.back() ||
+      y.front() == y.back())
     return {};
   const ResultQuantity& result = main_result(study);
   std::vector<std::vector<std::array<double, 3>>> lines;
@@ -209,6 +236,9 @@ std::optional<Picture> map_of_result(const Study& study) {
     lines.back().push_back(
         {{x[run], y[run], study.value(run, result.name).value_or(missing_point)}});
   }
+  for (auto& line : lines)
+    std::sort(line.begin(), line.end());
+  std::sort(lines.begin(), lines.end());
   const Units units = study.units();
   return plot_map(title_of(study), axis_label(varied[0], units),
                   axis_label(varied[study.first_key_of_part[1]], units), label_of(study, result),
@@ -224,24 +254,20 @@ std::vector<double> fastest_numbers(const Study& study) {
 
 void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written) {
   const std::string title = title_of(study);
-  const auto add = [&](const std::string& name, const std::vector<Panel>& panels,
-                       const std::string& remark = "") {
-    if (!panels.front().curves.empty())
-      draw(plot_panels(title + remark, panels), directory, name, written);
+  std::vector<Picture> pictures;
+  const auto add = [&](const std::string& name, std::vector<Panel> panels) {
+    panels.erase(std::remove_if(panels.begin(), panels.end(), is_empty), panels.end());
+    if (!panels.empty())
+      pictures.push_back(plot_panels(name, title, panels));
   };
   const auto x = fastest_numbers(study);
   const bool is_over_method = !x.empty() && !is_of_scene(fastest_key(study, study.plans.front()));
   if (const auto map = map_of_result(study))
-    draw(*map, directory, "study-map", written);
+    pictures.push_back(*map);
   if (!is_over_method) {
     if (!x.empty())
       add("study-curves", curve_panels(study, x));
-    const Panel panel = profile_panel(study, x);
-    const std::size_t n_shown = panel.curves.size(), n_runs = study.runs.size();
-    add("study-profiles", {panel},
-        n_shown == n_runs
-            ? ""
-            : "; " + std::to_string(n_shown) + " of " + std::to_string(n_runs) + " runs");
+    add("study-profiles", {profile_panel(study)});
   }
   const bool has_errors =
       study.has("error.exact_relative") || study.has("error.certified_relative");
@@ -263,6 +289,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
       study.varies("iterations.contact"))
     add("study", {{x_label_of(study), "contact steps",
                    curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
+  draw(pictures, directory, written);
 }
 
 } // namespace rollwave

@@ -3,6 +3,9 @@
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
+#include "rollwave/study/run_digest.h"
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
@@ -27,22 +30,16 @@ std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& var
   return all;
 }
 
-void check(const Parameters& parameters) {
-  try {
-    check_simulation(make_scene(parameters), parameters);
-  } catch (const BadValue& value) {
-    throw BadInput(refusal(parameters.settings, value));
-  }
-}
-
-/// The settings that the runs of a study share.
-std::vector<Setting> common_settings(const Parameters& study) {
-  std::vector<Setting> common;
+/// The settings that the runs of a scene share.
+std::vector<Setting> shared_settings(const Parameters& study,
+                                     const std::vector<Setting>& scene_settings) {
+  std::vector<Setting> shared;
   for (const Setting& setting : study.settings)
     if (setting.section != "Study" && setting.path() != "Output/Directory" &&
         setting.path() != "Output/Files")
-      common.push_back(setting);
-  return common;
+      shared.push_back(setting);
+  shared.insert(shared.end(), scene_settings.begin(), scene_settings.end());
+  return shared;
 }
 
 /// Refuses a varied key that belongs to Uzawa's method where no run uses that.
@@ -65,21 +62,24 @@ std::string lower_case_name(const Key& key) {
 } // namespace
 
 std::vector<RunPlan> plan_runs(const Parameters& parameters) {
-  std::vector<NamedScene> scenes = parameters.study.scenes;
-  if (scenes.empty())
-    scenes.push_back({"", {}});
-  const std::vector<Setting> common = common_settings(parameters);
+  const StudyOptions& study = parameters.study;
+  const std::vector<NamedScene> single(1);
+  const auto varied = combinations(study.vary);
   std::vector<RunPlan> plans;
-  for (const auto& scene : scenes)
-    for (const auto& varied : combinations(parameters.study.vary)) {
-      std::vector<Setting> settings = common;
-      settings.insert(settings.end(), scene.settings.begin(), scene.settings.end());
-      settings.insert(settings.end(), varied.begin(), varied.end());
-      plans.push_back({scene.name, varied, {}, read_parameters(settings)});
-      check(plans.back().parameters);
+  for (const NamedScene& scene : study.scenes.empty() ? single : study.scenes) {
+    const auto options = read_options(shared_settings(parameters, scene.settings), varied);
+    for (unsigned int i = 0; i < varied.size(); ++i) {
+      plans.push_back({scene.name, scene.settings, varied[i], {}, options[i], {}});
+      try {
+        check_simulation(make_scene(options[i]), options[i]);
+      } catch (const BadValue& value) {
+        throw BadInput(refusal(settings_of_run(parameters, plans.back()), value));
+      }
+      plans.back().digest = digest_of_run(options[i], study.true_errors);
     }
+  }
   check_method(plans);
-  const auto& published = parameters.study.published_steps;
+  const auto& published = study.published_steps;
   if (!published.empty() && published.size() != plans.size())
     throw BadValue("Study", "Published steps",
                    "there are " + std::to_string(published.size()) + " entries for " +
@@ -87,6 +87,16 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   for (unsigned int i = 0; i < published.size(); ++i)
     plans[i].published_steps = published[i];
   return plans;
+}
+
+std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& plan) {
+  std::vector<Setting> settings = shared_settings(study, plan.scene_settings);
+  settings.insert(settings.end(), plan.varied.begin(), plan.varied.end());
+  return settings;
+}
+
+std::string directory_of_run(unsigned int number) {
+  return "run-" + dealii::Utilities::int_to_string(number + 1, 3);
 }
 
 std::string axis_label(const Setting& setting, const Units& units) {

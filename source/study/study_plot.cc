@@ -3,9 +3,10 @@
 #include "rollwave/base/text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
-#include <regex>
 #include <sstream>
 
 namespace rollwave {
@@ -21,28 +22,44 @@ std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
 }
 
-/// @p text with at most four decimal digits in its numbers, as legends have room for.
-std::string with_short_numbers(std::string text) {
-  static const std::regex long_number(R"(\d+\.\d{5,}(e[+-]?\d+)?)");
+/// @p text with at most five digits in its decimal numbers, as legends have room for.
+std::string with_short_numbers(const std::string& text) {
   std::string shortened;
-  for (std::smatch number; std::regex_search(text, number, long_number); text = number.suffix())
-    shortened += number.prefix().str() + rounded(std::stod(number.str()), 5);
-  return shortened + text;
+  for (const char* rest = text.c_str(); *rest != 0;) {
+    char* end = nullptr;
+    const double number =
+        std::isdigit(static_cast<unsigned char>(*rest)) ? std::strtod(rest, &end) : 0;
+    const std::string word(rest, end ? end - rest : 1);
+    const bool is_long = word.size() > 6 && word.find('.') != std::string::npos;
+    shortened += is_long ? rounded(number, 5) : word;
+    rest += word.size();
+  }
+  return shortened;
 }
 
-/// The size of the letters of a title that leaves room for all of it.
-unsigned int title_size(const std::string& title, unsigned int width) {
-  constexpr unsigned int largest = 12, smallest = 7;
+/// The size of letters with which a line of @p n_letters has room in @p width, at most @p largest.
+/// A legend that is too wide is not drawn at all.
+unsigned int size_of_letters(double n_letters, double width, unsigned int largest) {
   constexpr double width_over_size = 0.62; // of a letter, as of most fonts without serifs
-  return std::clamp<unsigned int>(width / (width_over_size * with_short_numbers(title).size()),
-                                  smallest, largest);
+  return std::clamp<double>(width / (width_over_size * n_letters), 1, largest);
 }
 
-/// As inline data, one block for each '-' of a command.
-void write_points(std::ostream& data, const Points& points) {
+std::string title_in_room(const std::string& title, unsigned int width) {
+  const std::string text = with_short_numbers(title);
+  return in_single_quotes(text) + " font '," +
+         std::to_string(size_of_letters(text.size(), width, 12)) + '\'';
+}
+
+/// The name of a block of data of curve @p i in panel @p k.
+std::string block(const std::string& kind, unsigned int k, unsigned int i) {
+  return '$' + kind + '_' + std::to_string(k + 1) + '_' + std::to_string(i + 1);
+}
+
+void write_points(std::ostream& script, const std::string& name, const Points& points) {
+  script << name << " << EOD\n";
   for (const auto& [x, y] : points)
-    data << plotted(x) << ' ' << plotted(y) << '\n';
-  data << "e\n";
+    script << plotted(x) << ' ' << plotted(y) << '\n';
+  script << "EOD\n";
 }
 
 /// c of the line y = c x^slope, below all points.
@@ -73,11 +90,27 @@ bool has_few_integers(const Panel& panel) {
   return true;
 }
 
-/// The command that plots a panel, with its data. @param legend_rows of the legend of all panels; 0
-/// for none
-void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
+/// The range of y: at least a per cent of its values, so that noise does not fill the panel.
+std::string y_range(const Panel& panel) {
+  double least = std::numeric_limits<double>::max(), largest = -least;
+  for (const Curve& curve : panel.curves)
+    for (const Points* const points : {&curve.points, &curve.marks})
+      for (const auto& [x, y] : *points)
+        if (!std::isnan(y)) {
+          least = std::min(least, y);
+          largest = std::max(largest, y);
+        }
+  const double span = 0.01 * std::max(std::abs(least), std::abs(largest)),
+               middle = least + (largest - least) / 2;
+  return largest - least < span
+             ? '[' + plotted(middle - span / 2) + ':' + plotted(middle + span / 2) + ']'
+             : "[*:*]";
+}
+
+/// The command that plots panel @p k. @param legend_rows of the legend of all panels; 0 for none
+void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int legend_rows) {
   script << "set xlabel " << in_single_quotes(panel.x_label) << "\nset ylabel "
-         << in_single_quotes(panel.y_label);
+         << in_single_quotes(panel.y_label) << "\nset yrange " << y_range(panel);
   if (legend_rows > 0)
     script << "\nset key at screen 0.5, 0.01 center bottom vertical maxrows " << legend_rows;
   else
@@ -90,50 +123,49 @@ void plot(std::ostream& script, const Panel& panel, unsigned int legend_rows) {
          << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\n";
   if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
     script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";
-  script << "plot ";
-  std::ostringstream data;
-  auto add = [&, is_first = true](const Points& points, unsigned int curve,
-                                  const std::string& style, const std::string& title) mutable {
-    script << (is_first ? "" : ", ") << "'-' with " << style << " linewidth 2 linecolor rgb '"
-           << colours[curve] << "' title " << in_single_quotes(with_short_numbers(title));
-    write_points(data, points);
-    is_first = false;
+  std::string separator = "plot ";
+  const auto add = [&](const std::string& name, unsigned int curve, const std::string& style,
+                       const std::string& title) {
+    script << separator << name << " with " << style << " linewidth 2 linecolor rgb '"
+           << colours[curve] << "' title " << in_single_quotes(title);
+    separator = ", ";
   };
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    add(curve.points, i, style(i, curve.points.size()), curve.title);
+    add(block("curve", k, i), i, style(i, curve.points.size()), with_short_numbers(curve.title));
     if (!curve.marks.empty())
-      add(curve.marks, i, "points pointtype 6 pointsize 1.4", curve.title + " published");
+      add(block("marks", k, i), i, "points pointtype 6 pointsize 1.4",
+          with_short_numbers(curve.title) + " published");
   }
   for (unsigned int i = 0; i < panel.slopes.size(); ++i)
     script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]
            << ") with lines linewidth 1.5 linecolor rgb '#808080' dashtype " << 3 + i
            << " title 'expected slope " << panel.slopes[i] << "'";
-  script << '\n' << data.str();
+  script << '\n';
 }
 
 } // namespace
 
-std::vector<unsigned int> equidistant_numbers(unsigned int n, unsigned int most) {
-  const unsigned int n_chosen = std::min(n, most);
-  std::vector<unsigned int> chosen;
-  for (unsigned int i = 0; i < n_chosen; ++i)
-    chosen.push_back(n_chosen == 1 ? 0 : i * (n - 1) / (n_chosen - 1));
-  return chosen;
-}
-
-Picture plot_panels(std::string title, std::vector<Panel> panels) {
-  if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves)
+Picture plot_panels(const std::string& name, std::string title, std::vector<Panel> panels) {
+  constexpr std::size_t most_curves = 6; // that can be distinguished in one panel
+  if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves) {
     title += "; " + std::to_string(most_curves) + " of " + std::to_string(n_curves) + " curves";
-  for (Panel& panel : panels) {
-    std::vector<Curve> chosen;
-    for (const unsigned int i : equidistant_numbers(panel.curves.size(), most_curves))
-      chosen.push_back(panel.curves[i]);
-    panel.curves = std::move(chosen);
+    for (Panel& panel : panels) {
+      std::vector<Curve> chosen;
+      for (std::size_t i = 0; i < most_curves; ++i)
+        chosen.push_back(std::move(panel.curves[i * (n_curves - 1) / (most_curves - 1)]));
+      panel.curves = std::move(chosen);
+    }
   }
   std::ostringstream script;
   script.precision(9);
   script << "set grid\nset datafile missing 'NaN'\n";
+  for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
+    for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
+      write_points(script, block("curve", k, i), panels[k].curves[i].points);
+      if (!panels[k].curves[i].marks.empty())
+        write_points(script, block("marks", k, i), panels[k].curves[i].marks);
+    }
   const bool is_single = panels.size() == 1;
   unsigned int n_titles = panels[0].slopes.size(),
                longest = n_titles > 0 ? std::string("expected slope -0.75").size() : 0;
@@ -150,19 +182,21 @@ Picture plot_panels(std::string title, std::vector<Panel> panels) {
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
                      height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
   script << "set multiplot layout " << rows << ',' << columns << " title "
-         << in_single_quotes(with_short_numbers(title)) << " font '," << title_size(title, width)
-         << "' margins " << (is_single ? 0.14 : 0.11) << ",0.96,"
+         << title_in_room(title, width) << " margins " << (is_single ? 0.14 : 0.11) << ",0.96,"
          << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.13,"
-         << 80. / height << '\n';
+         << 80. / height << "\nset key font '," << size_of_letters(longest, width - sample, 14)
+         << "'\n";
   for (unsigned int k = 0; k < panels.size(); ++k)
-    plot(script, panels[k], k == 0 ? legend_rows : 0);
+    plot(script, panels[k], k, k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
-  return {script.str(), width, height};
+  return {name, script.str(), width, height};
 }
 
 Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
                  const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
+  // The point of each contour that has a label: off the border, also where a contour has few.
+  const unsigned int labelled = std::clamp<unsigned int>(lines.size() / 4, 1, 4);
   std::ostringstream script;
   script << "$map << EOD\n";
   for (const auto& line : lines) {
@@ -175,14 +209,14 @@ Picture plot_map(const std::string& title, const std::string& x_label, const std
             "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
             "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
-         << in_single_quotes(with_short_numbers(title)) << " font '," << title_size(title, 760)
-         << "'\nset xlabel " << in_single_quotes(x_label) << "\nset ylabel "
-         << in_single_quotes(y_label) << "\nset cblabel " << in_single_quotes(value_label)
+         << title_in_room(title, 760) << "\nset xlabel " << in_single_quotes(x_label)
+         << "\nset ylabel " << in_single_quotes(y_label) << "\nset cblabel "
+         << in_single_quotes(value_label)
          << "\nset pm3d interpolate 8,8\n"
             "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1, "
-            "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::4::4 with labels boxed "
-            "font ',10'\n";
-  return {script.str(), 760, 560};
+            "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::"
+         << labelled << "::" << labelled << " with labels boxed font ',10'\n";
+  return {"study-map", script.str(), 760, 560};
 }
 
 } // namespace rollwave

@@ -8,13 +8,26 @@
 
 namespace rollwave {
 
+std::vector<unsigned int> Study::wanted_runs() const {
+  const StudyPart wanted = part.value_or(StudyPart());
+  std::vector<unsigned int> numbers;
+  for (unsigned int run = wanted.number - 1; run < plans.size(); run += wanted.count)
+    numbers.push_back(run);
+  return numbers;
+}
+
+std::size_t Study::n_ended() const {
+  return runs.size() - std::count(runs.begin(), runs.end(), std::nullopt);
+}
+
 std::optional<double> Study::value(unsigned int run, const std::string& name) const {
   if (name == "published_steps")
     return plans[run].published_steps;
-  const std::string& known = result_quantity(name).name;
-  if (!runs[run] || runs[run]->values.count(known) == 0)
-    return {};
-  return runs[run]->values.at(known);
+  if (runs[run])
+    if (const auto known = runs[run]->values.find(name); known != runs[run]->values.end())
+      return known->second;
+  result_quantity(name); // throws for another name
+  return {};
 }
 
 bool Study::has(const std::string& name) const {
@@ -22,6 +35,13 @@ bool Study::has(const std::string& name) const {
     if (value(run, name).value_or(0) > 0)
       return true;
   return false;
+}
+
+bool Study::is_of_scenes() const {
+  const auto& varied = plans.front().varied;
+  return std::all_of(varied.begin(), varied.end(), [](const Setting& setting) {
+    return key_of(setting).affects & Affects::scene;
+  });
 }
 
 bool Study::varies(const std::string& name) const {

@@ -1,17 +1,21 @@
 #include "rollwave/study/study_solver.h"
 
+#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/output/result_files.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/study/run_digest.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
+#include <exception>
 #include <new>
 
 namespace rollwave {
@@ -21,7 +25,7 @@ using namespace dealii;
 namespace {
 
 /// True if two runs have the same mesh, which neither refines.
-bool have_same_mesh(const Parameters& one, const Parameters& other) {
+bool have_same_mesh(const RunOptions& one, const RunOptions& other) {
   return most_cycles(one.mesh) == 0 && most_cycles(other.mesh) == 0 &&
          one.cylinder.inner_radius == other.cylinder.inner_radius &&
          one.cylinder.outer_radius == other.cylinder.outer_radius &&
@@ -30,14 +34,14 @@ bool have_same_mesh(const Parameters& one, const Parameters& other) {
 }
 
 /// True if two runs have the same mesh and stiffness.
-bool have_same_system(const Parameters& one, const Parameters& other) {
+bool have_same_system(const RunOptions& one, const RunOptions& other) {
   return have_same_mesh(one, other) &&
          one.cylinder.angular_velocity == other.cylinder.angular_velocity &&
          one.material.wave_speed() == other.material.wave_speed();
 }
 
 /// True if two runs have the same force relative to the shear modulus.
-bool have_same_force(const Parameters& one, const Parameters& other) {
+bool have_same_force(const RunOptions& one, const RunOptions& other) {
   return one.cylinder.radial_force == other.cylinder.radial_force &&
          one.material.shear_modulus == other.material.shear_modulus;
 }
@@ -49,6 +53,14 @@ const Value& known_or_computed(std::vector<std::pair<Key, Value>>& known, const 
   const auto entry =
       std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == key; });
   return entry != known.end() ? entry->second : known.emplace_back(key, compute()).second;
+}
+
+/// Adds the digest to parameters.prm, by which a later call sees that all files are there; not if
+/// that is the file that was read.
+void mark_complete(const WrittenFiles& written, const std::string& digest) {
+  for (const std::filesystem::path& file : written.files)
+    if (file.filename() == "parameters.prm")
+      append_to_file(file, "\n# The files of this run are complete: " + digest + "\n");
 }
 
 } // namespace
@@ -63,21 +75,24 @@ StudyRun StudySolver::solve(unsigned int number) {
   const RunPlan& plan = plans[number];
   StudyRun run;
   if (!study.study.files_of_each_run.empty())
-    run.files = "run-" + Utilities::int_to_string(number + 1, 3);
+    run.files = directory_of_run(number);
   try {
     solve(number, run);
   } catch (const Interrupted&) {
     throw;
+  } catch (const NotWritten&) {
+    throw;
   } catch (const NotSolved& failure) {
     run.failure = failure.what();
   } catch (const BadValue& value) {
-    run.failure = refusal(plan.parameters.settings, value);
+    run.failure = refusal(settings_of_run(study, plan), value);
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& failure) {
     if (!is_serial(communicator))
       throw; // the other processes would wait
-    run.failure = NotEnoughMemory().what();
+    const bool is_short = dynamic_cast<const std::bad_alloc*>(&failure);
+    run.failure = is_short ? NotEnoughMemory().what() : reason_of(failure);
   }
   if (!run.is_solved())
     run.files.clear();
@@ -116,7 +131,7 @@ std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
 
 /// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
 Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
-  const Parameters& parameters = plans[number].parameters;
+  const RunOptions& parameters = plans[number].parameters;
   const Scene scene = make_scene(parameters);
   const auto is_shared_with_last = [&](const auto& have_same) {
     return last && have_same(plans[*last].parameters, parameters);
@@ -162,33 +177,41 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
       result.errors = measure_true_errors(*solution, *exact);
       if (solution->scene.load)
         result.errors->exact_distance = exact_distance(plan.parameters, solution->scene);
-      if (result.errors->is_resolved)
-        run.reference = "the semi-analytic solution";
-      else
-        result.errors.reset(); // errors below the accuracy of the reference give no orders
+      run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
   if (!run.files.empty()) {
-    Parameters parameters = plan.parameters;
-    parameters.output.files = study.study.files_of_each_run;
-    write_results(directory / run.files, parameters, *solution);
+    const WrittenFiles written =
+        write_results(directory / run.files, parameters_of_files(plan, run.files), *solution);
+    if (process_number(communicator) == 0)
+      mark_complete(written, digest_of_files(plan.digest, study));
+    run.remarks = written.remarks;
   }
   run.values = values_of(result, solution->scene.units);
   run.pressure = pressure_of(result, solution->scene.units);
   run.failure = shortfall_text(result);
-  run.remarks = result.remarks;
+  run.remarks.insert(run.remarks.begin(), result.remarks.begin(), result.remarks.end());
 }
 
-std::optional<double> StudySolver::exact_distance(const Parameters& parameters,
-                                                  const Scene& scene) {
-  const SceneKey key = {parameters.cylinder, parameters.road, parameters.material, 0};
+/// Those of a run that writes its own files.
+Parameters StudySolver::parameters_of_files(const RunPlan& plan, const std::string& files) const {
+  std::vector<Setting> settings = settings_of_run(study, plan);
+  const Setting& kinds = *last_of(study.settings, "Study/Files of each run");
+  settings.push_back({"Output", "Files", kinds.value, kinds.origin});
+  settings.push_back({"Output", "Directory", (directory / files).string(), kinds.origin});
+  Parameters parameters = read_parameters(settings);
+  parameters.file = study.file;
+  return parameters;
+}
+
+std::optional<double> StudySolver::exact_distance(const RunOptions& options, const Scene& scene) {
+  const SceneKey key = {options.cylinder, options.road, options.material, 0};
   return known_or_computed(exact_distances, key, [&] { return find_exact_distance(scene); });
 }
 
-const std::optional<ExactSolution>& StudySolver::exact_solution(const Parameters& parameters,
+const std::optional<ExactSolution>& StudySolver::exact_solution(const RunOptions& options,
                                                                 const Scene& scene) {
-  const SceneKey key = {parameters.cylinder, parameters.road, parameters.material,
-                        scene.road.distance};
+  const SceneKey key = {options.cylinder, options.road, options.material, scene.road.distance};
   return known_or_computed(exact_solutions, key, [&] { return find_exact_solution(scene); });
 }
 

@@ -11,8 +11,8 @@
 #include <functional>
 #include <map>
 #include <ostream>
-#include <regex>
 #include <sstream>
+#include <vector>
 
 namespace rollwave {
 
@@ -20,8 +20,16 @@ namespace {
 
 /// @p text with the characters escaped that have a meaning in TeX.
 std::string in_tex(const std::string& text) {
-  const std::string escaped = std::regex_replace(text, std::regex("[&%$#_{}]"), "\\$&");
-  return std::regex_replace(escaped, std::regex("[~^]"), "\\$&{}");
+  std::string escaped;
+  for (const char c : text)
+    if (c == '\\')
+      escaped += "\\textbackslash{}";
+    else if (std::string("~^").find(c) != std::string::npos)
+      escaped += std::string("\\") + c + "{}";
+    else
+      escaped += std::string("&%$#_{}").find(c) != std::string::npos ? std::string("\\") + c
+                                                                     : std::string(1, c);
+  return escaped;
 }
 
 std::string outcome_of(const StudyRun& run) {
@@ -37,6 +45,12 @@ dealii::TableHandler make_table(const Study& study,
     table.set_tex_caption(title, in_tex(title));
   };
   const Units units = study.units();
+  const bool has_published = study.has("published_steps");
+  const unsigned int kind = study.is_of_scenes() ? Shown::scene_table : Shown::table;
+  std::vector<ResultQuantity> shown;
+  for (const ResultQuantity& quantity : result_quantities())
+    if ((quantity.shown & kind) && study.has(quantity.name))
+      shown.push_back(quantity);
   for (unsigned int run = 0; run < study.runs.size(); ++run) {
     if (!study.runs[run])
       continue;
@@ -45,18 +59,16 @@ dealii::TableHandler make_table(const Study& study,
       add("scene", study.plans[run].scene);
     for (const Setting& setting : study.plans[run].varied)
       add(setting.key + units.in_brackets(key_of(setting).quantity), setting.value);
-    if (study.has("published_steps"))
+    if (has_published)
       add("published", study.plans[run].published_steps
                            ? std::to_string(*study.plans[run].published_steps)
                            : "-");
-    for (const ResultQuantity& quantity : result_quantities())
-      if (((quantity.shown & Shown::table) && study.has(quantity.name)) ||
-          ((quantity.shown & Shown::varied_table) && study.varies(quantity.name))) {
-        const auto value = study.value(run, quantity.name);
-        add((quantity.symbol.empty() ? quantity.words : quantity.symbol) +
-                units.in_brackets(quantity.quantity),
-            value ? quantity.text(*value) : "");
-      }
+    for (const ResultQuantity& quantity : shown) {
+      const auto value = study.value(run, quantity.name);
+      add((quantity.symbol.empty() ? quantity.words : quantity.symbol) +
+              units.in_brackets(quantity.quantity),
+          value ? quantity.text(*value) : "");
+    }
     add("outcome", outcome_of(*study.runs[run]));
   }
   return table;
@@ -92,9 +104,12 @@ std::string table_as_text(const Study& study) {
 }
 
 std::string table_as_tex(const Study& study) {
-  std::ostringstream text;
-  make_table(study, in_tex).write_tex(text);
-  return text.str();
+  std::ostringstream table;
+  make_table(study, in_tex).write_tex(table, /*with_header=*/false);
+  // In T1 the signs < > | are themselves.
+  return "\\documentclass[10pt]{report}\n\\usepackage[T1]{fontenc}\n\\usepackage{float}\n\n"
+         "\\begin{document}\n" +
+         table.str() + "\\end{document}\n";
 }
 
 void print_study_notes(std::ostream& out, const Study& study) {
@@ -106,9 +121,11 @@ void print_study_notes(std::ostream& out, const Study& study) {
       if (!made->remarks.empty())
         remarks[run] = boost::algorithm::join(made->remarks, "; ");
     }
-  out << "\nsteps: of the contact iteration on the last mesh, for a given load at its last "
-         "distance.\n"
-         "seconds: with the certificate and the files of each run, if any; without start-up, "
+  out << '\n';
+  if (!study.is_of_scenes())
+    out << "steps: of the contact iteration on the last mesh, for a given load at its last "
+           "distance.\n";
+  out << "seconds: with the certificate and the files of each run, if any; without start-up, "
          "exact\n"
          "solutions, and work reused from the run before (column shared of study.csv).\n";
   if (study.has("error.certified_relative"))

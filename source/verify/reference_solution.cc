@@ -1,6 +1,7 @@
 #include "rollwave/verify/reference_solution.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/scene/uniform_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,21 @@ std::optional<double> find_exact_distance(const Scene& scene) {
     c = next;
   }
   return {};
+}
+
+std::optional<double> find_exact_stiffness(const Scene& scene) {
+  const double free = scene.force.uniform.value_or(0) *
+                      contact_free_unit_displacement(scene.inner_radius, scene.outer_radius,
+                                                     scene.outer_radius),
+               depth = scene.outer_radius + free - scene.road.distance;
+  if (depth <= 0)
+    return {};
+  const double c = scene.road.distance, step = 1e-3 * depth;
+  const auto nearer = find_exact_solution(with_distance(scene, c - step)),
+             farther = find_exact_solution(with_distance(scene, c + step));
+  if (!nearer || !farther)
+    return {};
+  return (nearer->loads.vertical - farther->loads.vertical) / (2 * step);
 }
 
 } // namespace rollwave

@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct WrittenFiles {
 
   /// Writes a file. @throws NotWritten.
   void write(const std::filesystem::path& path, const std::string& content);
+
+  /// Adds a remark that names those of the files @p older that were not written.
+  void note_older_files(const std::vector<std::filesystem::path>& older);
 };
 
 /// Writes parameters.prm, the complete parameter file of a run with the version of the program in
@@ -26,20 +30,20 @@ struct WrittenFiles {
 void write_parameters(const std::filesystem::path& directory, const Parameters& parameters,
                       WrittenFiles& written);
 
-/// True if parameters.prm in the directory of @p parameters is what write_parameters() writes: a
-/// study then goes on.
-bool is_of_same_run(const Parameters& parameters);
+/// Refuses a directory in which parameters.prm, or summary.json if it is one of the @p kinds to
+/// write, is not a file of this program. The parameter file that was read is never written, and may
+/// be there. @throws BadValue
+void check_own_files(const std::filesystem::path& directory, const Parameters& parameters,
+                     const std::set<OutputFile>& kinds);
 
 /**
- * Makes the directory of a run, on rank 0 for all. If it has the parameters.prm of an earlier run,
- * files with the fixed names of this program are removed from it and from its run-NNN directories.
- * A single scene keeps the files that it will write, and a study that continues keeps all.
+ * Makes the directory of a run, on rank 0 for all.
  *
- * @return the names of the removed files
- * @throws BadValue when the directory cannot be made or written into, NotWritten when there is no
- *         space for it
+ * @return the files in it if it has the parameters.prm of an earlier run, else none
+ * @throws BadValue when the directory cannot be made or written into, and as check_own_files();
+ *         NotWritten when there is no space for it
  */
-std::vector<std::string> prepare_directory(const Parameters& parameters, bool is_study,
-                                           MPI_Comm communicator);
+std::vector<std::filesystem::path> prepare_directory(const Parameters& parameters, bool is_study,
+                                                     MPI_Comm communicator);
 
 } // namespace rollwave

@@ -1,10 +1,12 @@
 #pragma once
 
 #include "rollwave/parameters/key.h"
+#include "rollwave/parameters/study_options.h"
 
 #include <mpi.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,8 @@ struct CommandLine {
   std::filesystem::path file;    ///< the parameter file to run
   bool verify = false;           ///< compare with the exact solution
   std::vector<Setting> settings; ///< of --set and --output, in their order
+  std::optional<StudyPart> part; ///< of a study
+  std::string joining_command;   ///< the call without --part, for a shell
 };
 
 /// @throws BadInput for arguments that are not understood.

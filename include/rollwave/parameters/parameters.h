@@ -61,6 +61,12 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
  */
 Parameters read_parameters(const std::vector<Setting>& settings);
 
+/// The options of runs that share the settings @p shared, each with further ones that override
+/// them.
+/// @throws BadInput as read_parameters()
+std::vector<RunOptions> read_options(const std::vector<Setting>& shared,
+                                     const std::vector<std::vector<Setting>>& further);
+
 /// A complete commented parameter file: defaults, overridden by @p settings.
 /// @throws BadInput as read_parameters().
 void print_parameters(std::ostream& out, const std::vector<Setting>& settings);

@@ -21,6 +21,11 @@ struct NamedScene {
 /// The choices for a key, or for keys that vary together: one setting for each key.
 using Variation = std::vector<std::vector<Setting>>;
 
+/// The part of a study that one call makes: of its runs every count-th, beginning with this one.
+struct StudyPart {
+  unsigned int number = 1, count = 1; ///< 1 <= number <= count
+};
+
 /// Section `Study`.
 struct StudyOptions {
   std::vector<NamedScene> scenes; ///< none: the scene of the file

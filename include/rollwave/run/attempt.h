@@ -2,11 +2,15 @@
 
 #include <mpi.h>
 
+#include <exception>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace rollwave {
+
+/// Why something failed, in one line, without the advice of NotEnoughMemory.
+std::string reason_of(const std::exception& failure);
 
 /// Computes an additional part of a result, such as the certificate. If that fails, the solution is
 /// kept, and the failure is added to @p shortfalls.

@@ -15,12 +15,13 @@ namespace rollwave {
 /// quantity may have several of these flags.
 struct Shown {
   enum : unsigned int {
-    screen = 1,        ///< the report of a single run
-    table = 2,         ///< study.txt and study.tex
-    orders = 4,        ///< the orders of convergence of a study
-    curve = 8,         ///< study-curves.svg
-    varied_table = 16, ///< study.txt and study.tex, if the runs differ in it
-    upper_bound = 32   ///< rounded up where it is shown
+    screen = 1,       ///< the report of a single run
+    table = 2,        ///< study.txt and study.tex where keys of mesh or method vary
+    orders = 4,       ///< the orders of convergence of a study
+    curve = 8,        ///< study-curves.svg
+    scene_table = 16, ///< study.txt and study.tex where only keys of the scene vary
+    tables = 18,      ///< both tables
+    upper_bound = 32  ///< rounded up where it is shown
   };
 };
 

@@ -17,10 +17,11 @@ struct Family {
 
 std::vector<Family> find_families(const Study& study);
 
-/// Prints a table for each family with two or more meshes: the errors and their orders in
-/// N^(-1/2), N the number of unknowns. N^(-1/2) is h up to a constant if all cells are cut alike.
-/// For three or more meshes it also prints the orders over the last three refinements, fitted by
-/// least squares, with standard errors.
+/// Prints a table for each family with two or more meshes: the errors and their orders in h, the
+/// largest diameter of a cell; for adaptive meshes in N^(-1/2), N the number of unknowns. For three
+/// or more meshes it also prints the orders over the last three refinements, fitted by least
+/// squares, with standard errors, and next to them the expected order, if each refinement is one in
+/// both directions.
 void report_orders(std::ostream& out, const Study& study);
 
 } // namespace rollwave

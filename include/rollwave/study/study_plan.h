@@ -12,10 +12,12 @@ namespace rollwave {
 
 /// A run of a study before it is made.
 struct RunPlan {
-  std::string scene;           ///< its name in Study/Scenes, empty without
-  std::vector<Setting> varied; ///< one setting for each key of Study/Vary
+  std::string scene;                   ///< its name in Study/Scenes, empty without
+  std::vector<Setting> scene_settings; ///< those of this scene
+  std::vector<Setting> varied;         ///< one setting for each key of Study/Vary
   std::optional<unsigned int> published_steps;
-  Parameters parameters; ///< of this run alone
+  RunOptions parameters; ///< of this run alone
+  std::string digest;    ///< see digest_of_run()
 };
 
 /// Every combination of the values in `Study/Vary`, the last key varying fastest, for each of
@@ -23,6 +25,12 @@ struct RunPlan {
 /// @throws BadInput when any setting is refused, or `Study/Published steps` does not have one entry
 ///         for each run
 std::vector<RunPlan> plan_runs(const Parameters& parameters);
+
+/// All settings of a run of @p study: those that its runs share, of its scene, and the varied ones.
+std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& plan);
+
+/// The directory of a run's own files in that of the study: run-001 for number 0.
+std::string directory_of_run(unsigned int number);
 
 /// The label of an axis: a key with its symbol and unit, such as "distance c [m]".
 std::string axis_label(const Setting& setting, const Units& units);

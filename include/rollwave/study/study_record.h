@@ -4,7 +4,6 @@
 #include "rollwave/scene/units.h"
 #include "rollwave/study/study_plan.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,15 +31,18 @@ struct StudyRun {
 struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
+  std::optional<StudyPart> part = {}; ///< where a call makes a part of the runs only
+  std::vector<Setting> settings = {}; ///< all of the first run
 
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
   /// vary together.
   std::vector<unsigned int> first_key_of_part = {};
   std::string shortfall = ""; ///< set if the user has interrupted it, otherwise empty
 
-  std::size_t n_ended() const {
-    return runs.size() - std::count(runs.begin(), runs.end(), std::nullopt);
-  }
+  /// The numbers of the runs that the call makes, from 0 on.
+  std::vector<unsigned int> wanted_runs() const;
+
+  std::size_t n_ended() const;
 
   /// The value of one of result_quantities() or of `published_steps`, where it is known.
   /// @throws std::out_of_range for another name
@@ -51,6 +53,9 @@ struct Study {
 
   /// True if any run has a value that is greater than 0.
   bool has(const std::string& name) const;
+
+  /// True if the runs differ in keys of the scene only, not in those of mesh or method.
+  bool is_of_scenes() const;
 
   /// True if the values of two runs differ by more than 1e-8 of the largest.
   bool varies(const std::string& name) const;

@@ -19,4 +19,9 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene,
 /// or 20 steps are not enough.
 std::optional<double> find_exact_distance(const Scene& scene);
 
+/// -d/dc of the exact vertical load, by a central difference over 1e-3 of the depth by which the
+/// free surface would lie in the road; its relative error is of the order of 1e-6. nullopt without
+/// contact or where an exact solution is not known.
+std::optional<double> find_exact_stiffness(const Scene& scene);
+
 } // namespace rollwave

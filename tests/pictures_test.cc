@@ -1,0 +1,276 @@
+// Pictures show the numbers of the files: the data of their scripts are read back.
+
+#include "program.h"
+
+#include "rollwave/output/gnuplot.h"
+#include "rollwave/run/quantities.h"
+#include "rollwave/study/study_plot.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+using rollwave::Shown;
+using Rows = std::vector<std::vector<double>>;
+
+/// The numbers of each block of data of a script, by the name of the block; empty lines left out.
+std::map<std::string, Rows> blocks_of(const std::string& script) {
+  std::map<std::string, Rows> blocks;
+  std::istringstream lines(script);
+  std::string block;
+  for (std::string line; std::getline(lines, line);)
+    if (const auto end = line.find(" << EOD"); end != std::string::npos) {
+      block = line.substr(0, end);
+      blocks[block];
+    } else if (line == "EOD")
+      block.clear();
+    else if (!block.empty() && !line.empty()) {
+      std::istringstream numbers(line);
+      blocks[block].emplace_back();
+      for (std::string number; numbers >> number;)
+        blocks[block].back().push_back(std::strtod(number.c_str(), nullptr));
+    }
+  return blocks;
+}
+
+/// The text after each "set NAME ".
+std::vector<std::string> settings_of(const std::string& script, const std::string& name) {
+  std::vector<std::string> values;
+  std::istringstream lines(script);
+  const std::string start = "set " + name + ' ';
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind(start, 0) == 0)
+      values.push_back(line.substr(start.size()));
+  return values;
+}
+
+/// The number given to a variable of a script.
+double variable(const std::string& script, const std::string& name) {
+  const auto place = script.find('\n' + name + " = ");
+  return place == std::string::npos ? NAN : std::stod(script.substr(place + name.size() + 4));
+}
+
+void expect_same_point(const std::vector<double>& point, double x, double y) {
+  ASSERT_EQ(point.size(), 2u);
+  EXPECT_NEAR(point[0], x, 1e-8 * std::abs(x));
+  EXPECT_NEAR(point[1], y, 1e-8 * std::abs(y));
+}
+
+double number(const CsvRow& row, const std::string& column) {
+  return std::stod(row.at(column));
+}
+
+class Pictures : public Program {
+protected:
+  void run(const std::vector<std::string>& settings) {
+    std::string command = "$rollwave " + scene;
+    for (const std::string& setting : settings)
+      command += " --set '" + setting + '\'';
+    const Outcome outcome = shell(command);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  }
+
+  /// Draws a picture and returns it as text.
+  std::string drawn(const rollwave::Picture& picture) {
+    fs::create_directories(directory / "out");
+    rollwave::WrittenFiles written;
+    rollwave::draw({picture}, directory / "out", written);
+    EXPECT_TRUE(written.remarks.empty()) << written.remarks.front();
+    return read(picture.name + ".svg");
+  }
+};
+
+TEST_F(Pictures, CurvesGoThroughTheRowsOfTheTableInOrder) {
+  run({"Study/Vary=Cylinder/Angular velocity = 0.5 | 1; Road/Distance = 0.8 | 0.7 | 0.85 | 0.75",
+       "Mesh/Degree=1"});
+  const auto rows = csv_rows(read("study.csv"));
+  ASSERT_EQ(rows.size(), 8u);
+  const std::vector<unsigned int> order = {1, 3, 0, 2}; // by distance
+  auto blocks = blocks_of(read("study-curves.gp"));
+  unsigned int panel = 0;
+  for (const auto& quantity : rollwave::result_quantities())
+    if (quantity.shown & Shown::curve) {
+      ++panel;
+      const bool is_load = quantity.name == "contact.vertical_load";
+      for (const unsigned int curve : {0, 1}) {
+        const Rows& points =
+            blocks["$curve_" + std::to_string(panel) + '_' + std::to_string(curve + 1)];
+        ASSERT_EQ(points.size(), 4u) << quantity.name;
+        for (unsigned int i = 0; i < 4; ++i) {
+          const CsvRow& row = rows[4 * curve + (is_load ? order[3 - i] : order[i])];
+          expect_same_point(points[i], number(row, is_load ? "scene.deflection" : "Road/Distance"),
+                            number(row, quantity.name));
+        }
+      }
+    }
+  EXPECT_EQ(panel, settings_of(read("study-curves.gp"), "ylabel").size());
+}
+
+TEST_F(Pictures, ErrorsLieOverTheDiametersOfCells) {
+  run({"Mesh/Degree=1", "Study/Vary=Mesh/Global refinements = 0 | 2 | 1"});
+  const auto rows = csv_rows(read("study.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  const auto over_h = blocks_of(read("study-h.gp"))["$curve_1_1"],
+             over_unknowns = blocks_of(read("study-unknowns.gp"))["$curve_1_1"];
+  ASSERT_EQ(over_h.size(), 3u);
+  ASSERT_EQ(over_unknowns.size(), 3u);
+  const std::vector<unsigned int> finest_first = {1, 2, 0};
+  for (unsigned int i = 0; i < 3; ++i) {
+    const CsvRow& row = rows[finest_first[i]];
+    const double refined = std::stod(row.at("Mesh/Global refinements")),
+                 h = std::hypot(0.5 / 4, 2 * M_PI / 60) / std::pow(2, refined);
+    EXPECT_NEAR(number(row, "mesh.h_max"), h, 1e-12);
+    EXPECT_NEAR(number(row, "mesh.h_min"), h, 1e-12);
+    const double error = number(row, "error.certified_relative");
+    expect_same_point(over_h[i], h, error);
+    expect_same_point(over_unknowns[2 - i], number(row, "mesh.dofs"), error);
+  }
+}
+
+TEST_F(Pictures, ProfilesOfMaterialsLieAlongTheRoad) {
+  for (const double curvature : {0., 0.5}) {
+    fs::remove_all(directory / "out");
+    run({"Road/Curvature=" + std::to_string(curvature), "Material/Shear modulus=3",
+         "Study/Vary=Road/Distance = 0.7 | 0.8"});
+    const auto rows = csv_rows(read("study.csv"));
+    auto blocks = blocks_of(read("study-profiles.gp"));
+    std::map<std::string, Rows> expected;
+    for (const CsvRow& row : csv_rows(read("study-profiles.csv"))) {
+      const double c = number(row, "run") == 1 ? 0.7 : 0.8, x = number(row, "z") - 1.5 * M_PI;
+      const double m = 1 + curvature * c;
+      expected["$curve_1_" + row.at("run")].push_back(
+          {curvature == 0 ? c * std::tan(x) : (std::asin(m * std::sin(x)) - x) / curvature,
+           number(row, "pressure")});
+    }
+    for (const unsigned int run : {1, 2}) {
+      const std::string name = "$curve_1_" + std::to_string(run);
+      ASSERT_EQ(blocks[name].size(), expected[name].size());
+      ASSERT_GT(blocks[name].size(), 5u);
+      for (unsigned int i = 0; i < blocks[name].size(); ++i) {
+        EXPECT_NEAR(blocks[name][i][0], expected[name][i][0], 1e-8);
+        EXPECT_NEAR(blocks[name][i][1], expected[name][i][1], 1e-8);
+      }
+      // The nodes next to the ends of contact enclose the nip.
+      EXPECT_NEAR(blocks[name].back()[0] - blocks[name].front()[0],
+                  number(rows[run - 1], "contact.length"), 0.1);
+    }
+  }
+}
+
+TEST_F(Pictures, ProfilesOfScenesShowEachScene) {
+  run({"Study/Scenes=slow: Cylinder/Angular velocity = 0; fast: Cylinder/Angular velocity = 1; "
+       "soft: Cylinder/Radial force = 1",
+       "Study/Vary=Road/Distance = 0.7 | 0.8 | 0.9", "Mesh/Degree=1"});
+  const std::string script = read("study-profiles.gp");
+  EXPECT_EQ(blocks_of(script).count("$curve_1_6"), 1u);
+  EXPECT_EQ(blocks_of(script).count("$curve_1_7"), 0u);
+  for (const char* const scene : {"slow, ", "fast, ", "soft, "})
+    EXPECT_NE(script.find("title '" + std::string(scene)), std::string::npos) << scene;
+}
+
+TEST_F(Pictures, SceneShowsSurfaceGapAndPressure) {
+  for (const double modulus : {1., 3.}) {
+    fs::remove_all(directory / "out");
+    run({"Material/Shear modulus=" + std::to_string(modulus)});
+    auto blocks = blocks_of(read("scene.gp"));
+    const auto rows = csv_rows(read("contact.csv"));
+    ASSERT_EQ(blocks["$contact"].size(), rows.size());
+    for (unsigned int i = 0; i < rows.size(); ++i) {
+      const double x = number(rows[i], "z") - 1.5 * M_PI;
+      EXPECT_NEAR(blocks["$contact"][i][0], modulus == 1 ? x : 0.8 * std::tan(x), 1e-9);
+      EXPECT_NEAR(blocks["$contact"][i][1], std::max(0., number(rows[i], "gap")), 1e-9);
+      EXPECT_NEAR(blocks["$contact"][i][2], number(rows[i], "pressure"), 1e-9);
+    }
+    const auto contact = nlohmann::json::parse(read("summary.json"))["contact"];
+    const double end = contact["right_end"].get<double>() - 1.5 * M_PI;
+    EXPECT_NEAR(variable(read("scene.gp"), "range"),
+                modulus == 1 ? 1.5 * end : 0.8 * std::tan(1.5 * end), 1e-9);
+    ASSERT_EQ(blocks["$surface"].size(), 2 * 60 + 1u); // closed
+    for (const auto& point : blocks["$surface"])
+      EXPECT_LT(std::hypot(point[0], point[1]), 1 + 1e-9);
+    EXPECT_EQ(blocks["$surface"].front(), blocks["$surface"].back());
+  }
+}
+
+TEST_F(Pictures, SceneHasRoomForContactAllAround) {
+  run({"Cylinder/Radial force=2", "Road/Curvature=-0.9", "Road/Distance=1.05"});
+  const std::string script = read("scene.gp");
+  const double range = variable(script, "range");
+  EXPECT_NEAR(range, M_PI, 1e-9);
+  const auto arrows = settings_of(script, "arrow");
+  ASSERT_EQ(arrows.size(), 2u);
+  for (const std::string& arrow : arrows)
+    EXPECT_LE(std::abs(std::stod(arrow.substr(5))), range) << arrow;
+  EXPECT_NE(script.find("\nzoom = b * 1\n"), std::string::npos); // not wider than the cylinder
+}
+
+TEST_F(Pictures, AxesSpanAPerCentOfTheirValues) {
+  for (const double noise : {0., 1e-6, 0.5}) {
+    const std::string script =
+        rollwave::plot_panels("noise", "", {{"x", "y", {{"", {{1, 2}, {2, 2 + noise}}}}}}).script;
+    const std::string range = settings_of(script, "yrange").front();
+    if (noise > 0.02)
+      EXPECT_EQ(range, "[*:*]");
+    else {
+      const double low = std::stod(range.substr(1)),
+                   high = std::stod(range.substr(range.find(':') + 1));
+      EXPECT_NEAR(high - low, 0.02, 1e-7);
+      EXPECT_NEAR((high + low) / 2, 2 + noise / 2, 1e-7);
+    }
+  }
+}
+
+// With two patches no half-width is known.
+TEST_F(Pictures, PanelsWithoutValuesLeaveTheOthers) {
+  const Outcome outcome =
+      shell("$rollwave '" ROLLWAVE_PRM_DIRECTORY "/examples/two-patches.prm' --output '" +
+            (directory / "out").string() +
+            "' --set 'Mesh/Radial cells=5' --set 'Mesh/Angular cells=120' --set "
+            "'Mesh/Global refinements=0' --set 'Study/Vary=Road/Distance = 0.8 | 0.79'");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+  EXPECT_EQ(csv_rows(read("study.csv")).front().at("contact.half_width"), "");
+  EXPECT_TRUE(has("study-curves.svg"));
+}
+
+TEST_F(Pictures, LongNamesHaveRoomInTheLegend) {
+  for (const unsigned int length : {20, 80, 200}) {
+    const std::string name(length, 'n');
+    const std::string text = drawn(rollwave::plot_panels(
+        "long", "",
+        {{"x", "y", {{name + " one", {{1, 2}, {2, 3}}}, {name + " two", {{1, 1}, {2, 2}}}}}}));
+    for (const char* const end : {" one</text>", " two</text>"})
+      EXPECT_NE(text.find(end), std::string::npos);
+  }
+}
+
+TEST_F(Pictures, MapHasTheRowsOfTheTable) {
+  run({"Study/Vary=Road/Distance = 0.8 | 0.7 | 0.9; Cylinder/Angular velocity = 1 | 0",
+       "Mesh/Degree=1"});
+  Rows expected;
+  for (const CsvRow& row : csv_rows(read("study.csv")))
+    expected.push_back({number(row, "Road/Distance"), number(row, "Cylinder/Angular velocity"),
+                        number(row, "contact.vertical_load")});
+  std::sort(expected.begin(), expected.end());
+  const Rows points = blocks_of(read("study-map.gp"))["$map"];
+  ASSERT_EQ(points.size(), expected.size());
+  for (unsigned int i = 0; i < points.size(); ++i)
+    for (unsigned int k = 0; k < 3; ++k)
+      EXPECT_NEAR(points[i][k], expected[i][k], 1e-8);
+}
+
+TEST_F(Pictures, ContoursOfASmallMapHaveLabels) {
+  std::vector<std::vector<std::array<double, 3>>> lines(3);
+  for (const double x : {0., 1., 2.})
+    for (const double y : {0., 1., 2.})
+      lines[x].push_back({{x, y, 10000 * (1 + x + y)}});
+  const std::string text = drawn(rollwave::plot_map("", "x", "y", "value", lines));
+  EXPECT_NE(text.find("e+04</text>"), std::string::npos); // axes and colour box write 30000
+}
+
+} // namespace
