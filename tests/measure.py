@@ -279,6 +279,13 @@ def processes():
                    'MiB of the largest process'], rows)] * 2
 
 
+def calibration():
+    commands.append('tests/calibration.py build/rollwave')
+    printed = subprocess.run([root / 'tests/calibration.py', rollwave], capture_output=True, text=True,
+                             check=True).stdout
+    return printed.split('\n\n')[0] + '\n', printed.split('\n\n')[1]
+
+
 def pictures():
     for name in ('examples/two-patches', 'figure-4'):
         directory = call(name, {})
@@ -310,7 +317,7 @@ def fill(name, text):
 
 
 for measurement in (figures, orders, adaptive, extremes, wanted, accuracy, phases, sweep, processes,
-                    pictures):
+                    calibration, pictures):
     name = measurement.__name__
     if arguments.names and name not in arguments.names:
         continue
