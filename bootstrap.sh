@@ -9,12 +9,13 @@ usage() {
 Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 of the paper)
        ./bootstrap.sh test [OPTIONS of ctest]
        ./bootstrap.sh test --long                            (only random scenes and forces, 300 each)
+       ./bootstrap.sh debug [OPTIONS of ctest]               (the fast tests with deal.II's assertions)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
        ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
 
 Each command installs missing Debian packages and builds in the directory build of this script
-(sanitize: build-sanitize). run starts the program in the current directory; paths are relative to it.
+(debug: build-debug, sanitize: build-sanitize). run starts the program in the current directory; paths are relative to it.
 TEXT
 }
 
@@ -75,6 +76,12 @@ test)
     set -- -R random "${@:2}"
   fi
   exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
+  ;;
+debug)
+  shift
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build all build-debug -DCMAKE_BUILD_TYPE=Debug
+  exec ctest --test-dir build-debug -L fast --output-on-failure -j "$(nproc)" "$@"
   ;;
 sanitize)
   shift
