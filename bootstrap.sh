@@ -12,10 +12,11 @@ Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 
        ./bootstrap.sh debug [OPTIONS of ctest]               (the fast tests with deal.II's assertions)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
-       ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
+       ./bootstrap.sh scaling [PROCESSES]                    (on 1, 2, 4 ... processes; default 4)
 
 Each command installs missing Debian packages and builds in the directory build of this script
-(debug: build-debug, sanitize: build-sanitize). run starts the program in the current directory; paths are relative to it.
+(debug: build-debug, sanitize: build-sanitize). run starts the program in the current directory, and
+paths are relative to it.
 TEXT
 }
 
@@ -97,7 +98,7 @@ benchmark)
 scaling)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
   build rollwave build
-  exec python3 tests/scaling.py build/rollwave prm/figure-4.prm "${2:-2}"
+  exec tests/scaling.py build/rollwave prm/figure-4.prm "${2:-4}"
   ;;
 *)
   usage >&2
