@@ -9,18 +9,20 @@ usage() {
 Usage: ./bootstrap.sh run [FILE.prm] [OPTIONS of rollwave]   (default: figure 4 of the paper)
        ./bootstrap.sh test [OPTIONS of ctest]
        ./bootstrap.sh test --long                            (only random scenes and forces, 300 each)
+       ./bootstrap.sh debug [OPTIONS of ctest]               (the fast tests with deal.II's assertions)
        ./bootstrap.sh sanitize [OPTIONS of ctest]            (the tests under sanitizers)
        ./bootstrap.sh benchmark
-       ./bootstrap.sh scaling [RANKS]                        (on as many processes; default 2)
+       ./bootstrap.sh scaling [PROCESSES]                    (on 1, 2, 4 ... processes; default 4)
 
 Each command installs missing Debian packages and builds in the directory build of this script
-(sanitize: build-sanitize). run starts the program in the current directory; paths are relative to it.
+(debug: build-debug, sanitize: build-sanitize). run starts the program in the current directory, and
+paths are relative to it.
 TEXT
 }
 
 # mold is the linker that Debian 13's deal.II asks for.
 program_packages=(g++ cmake ninja-build mold libdeal.ii-dev libsuitesparse-dev
-  libopenblas0-pthread nlohmann-json3-dev gnuplot-nox openmpi-bin libhypre-dev)
+  libopenblas0-pthread nlohmann-json3-dev gnuplot-nox openmpi-bin libmumps-dev)
 test_packages=(libgtest-dev python3-vtk9)
 
 install_missing() {
@@ -76,6 +78,12 @@ test)
   fi
   exec ctest --test-dir build --output-on-failure -j "$(nproc)" "$@"
   ;;
+debug)
+  shift
+  install_missing "${program_packages[@]}" "${test_packages[@]}"
+  build all build-debug -DCMAKE_BUILD_TYPE=Debug
+  exec ctest --test-dir build-debug -L fast --output-on-failure -j "$(nproc)" "$@"
+  ;;
 sanitize)
   shift
   install_missing "${program_packages[@]}" "${test_packages[@]}"
@@ -90,7 +98,7 @@ benchmark)
 scaling)
   install_missing "${program_packages[@]}" "${test_packages[@]}"
   build rollwave build
-  exec python3 tests/scaling.py build/rollwave prm/figure-4.prm "${2:-2}"
+  exec tests/scaling.py build/rollwave prm/figure-4.prm "${2:-4}"
   ;;
 *)
   usage >&2

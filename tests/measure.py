@@ -3,7 +3,7 @@
 between "<!-- measured: NAME -->" and "<!-- end -->" in README.md and doc/, draws doc/pictures/.
 
 Usage, in the root of the repository: tests/measure.py [--rollwave build/rollwave] [NAME...]
-All names take some nine minutes on two quiet cores.
+All names take a quarter of an hour on two quiet cores.
 """
 import argparse
 import csv
@@ -112,6 +112,13 @@ def largest_residual(run):
 def spread(values):
     values = [value for value in values if value != '']
     return f'{min(values):.2f} to {max(values):.2f}'
+
+
+def printed(script, *options):
+    """The tables that another script prints."""
+    commands.append(shlex.join([script, 'build/rollwave', *options]))
+    return subprocess.run([root / script, rollwave, *options], cwd=root, stdout=subprocess.PIPE,
+                          text=True, check=True).stdout
 
 
 def figures():
@@ -265,15 +272,12 @@ def sweep():
 
 
 def processes():
-    settings = {**uniform(2, 96, 1194), 'Output/Files': 'summary'}
-    rows = []
-    for n, kind in ((1, 'direct'), (1, 'iterative'), (2, 'iterative')):
-        launcher = ['mpirun', '--bind-to', 'none', '-np', str(n)] if n > 1 else []
-        run = scene('figure-4', {**settings, 'Solver/Kind': kind}, repeats=2, launcher=launcher)
-        rows.append([n, kind, run['mesh']['dofs'], run['iterations']['linear'],
-                     run['seconds']['total'], round(run['peak_memory_mib'])])
-    return [table(['processes', 'kind', 'unknowns', 'CG iterations', 'seconds',
-                   'MiB of the largest process'], rows)] * 2
+    return [printed('tests/scaling.py', 'prm/figure-4.prm', '4')] * 2
+
+
+def calibration():
+    short, full = printed('tests/calibration.py').split('\n\n')
+    return short + '\n', full
 
 
 def pictures():
@@ -307,7 +311,7 @@ def fill(name, text):
 
 
 for measurement in (figures, orders, adaptive, extremes, wanted, accuracy, phases, sweep, processes,
-                    pictures):
+                    calibration, pictures):
     name = measurement.__name__
     if arguments.names and name not in arguments.names:
         continue

@@ -1,96 +1,59 @@
-"""Strong and weak scaling of the iterative kind: tables in Markdown.
+#!/usr/bin/env python3
+"""Time and memory of the same scenes on more processes: a table in Markdown.
 
-Usage: scaling.py ROLLWAVE FILE.prm [RANKS]    (from 1 to RANKS by doubling; default 2)
+Usage: tests/scaling.py ROLLWAVE FILE.prm [PROCESSES]    (from 1 to PROCESSES by doubling; default 4)
 
-Each rank has one core and no threads, also a single one. Cases run in turn, five times; the fastest run
-counts. Runs "apart" do not communicate: if they are slower than one run alone, the cores share a
-resource such as memory bandwidth. Seconds are those of summary.json. "of the solve" is the speed-up of the
-phases space, assembly, preconditioner and contact together.
+Every process has one thread. Runs take turns, three times each, and the fastest one counts. "seconds" are
+those of summary.json; "wall" is the time of the whole command, with the start of the program and of MPI.
+Where there are more processes than cores, processes that wait take time from others.
 """
-
 import json
 import os
 import subprocess
 import sys
 import tempfile
+import time
 
-SOLVE = ["space", "assembly", "preconditioner", "contact"]
-PHASES = ["mesh"] + SOLVE + ["certificate"]
-
-
-def start(program, scene, ranks, degree, radial, angular, directory):
-    settings = {"Mesh/Degree": degree, "Mesh/Radial cells": radial // degree,
-                "Mesh/Angular cells": angular // degree, "Solver/Kind": "iterative",
-                "Output/Files": "summary"}
-    command = ["mpirun", "-np", str(ranks)] if ranks > 1 else []
-    if ranks > os.cpu_count():
-        command.insert(1, "--oversubscribe")  # which costs: ranks that wait yield their core
-    command += [program, scene, "--output", directory]
-    for key, value in settings.items():
-        command += ["--set", f"{key}={value}"]
-    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
-                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OPENBLAS_NUM_THREADS="1",
-                       DEAL_II_NUM_THREADS="1")
-    return subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
+SCENES = [
+    ('adaptive to 1e-5', {'Mesh/Radial cells': 2, 'Mesh/Angular cells': 24,
+                          'Mesh/Wanted relative error': 1e-5}),
+    ('96 x 1194 cells', {'Mesh/Radial cells': 96, 'Mesh/Angular cells': 1194}),
+    ('29 x 272 cells, 3 refinements', {'Mesh/Radial cells': 29, 'Mesh/Angular cells': 272,
+                                       'Mesh/Global refinements': 3}),
+]
 
 
-def total(summary):
-    return summary["seconds"]["total"]
-
-
-def run(program, scene, runs, ranks, degree, radial, angular):
-    """The slowest summary of runs side by side."""
+def run(program, scene, processes, settings):
+    """Wall time, and summary.json."""
+    command = ['mpirun', '-np', str(processes), '--bind-to', 'none', '--oversubscribe'] if processes > 1 else []
+    command += [program, scene]
+    for key, value in {**settings, 'Output/Files': 'summary'}.items():
+        command += ['--set', f'{key}={value}']
+    environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT='1', OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1',
+                       OPENBLAS_NUM_THREADS='1', OMP_NUM_THREADS='1')
     with tempfile.TemporaryDirectory() as directory:
-        places = [os.path.join(directory, str(k)) for k in range(runs)]
-        for process in [start(program, scene, ranks, degree, radial, angular, place)
-                        for place in places]:
-            if process.wait() != 0:
-                sys.exit("a run has failed")
-        summaries = []
-        for place in places:
-            with open(os.path.join(place, "summary.json")) as file:
-                summaries.append(json.load(file))
-        return max(summaries, key=total)
-
-
-def table(title, program, scene, cases):
-    """Of cases (name, runs side by side, ranks of each, radial cells, angular cells)."""
-    print(f"\n{title}\n")
-    columns = ["ranks", "degree", "unknowns", "CG iterations"] + PHASES + \
-        ["total", "speed-up", "of the solve", "MiB of a rank"]
-    print("| " + " | ".join(columns) + " |")
-    print("|" + "---|" * len(columns))
-    for degree in (1, 2):
-        first = None
-        turns = [[run(program, scene, *numbers, degree, radial, angular)
-                  for _, *numbers, radial, angular in cases] for _ in range(5)]
-        for (name, runs, *_), *of_case in zip(cases, *turns):
-            summary = min(of_case, key=total)
-            seconds = summary["seconds"]
-            dofs = runs * summary["mesh"]["dofs"]
-            rates = [dofs / seconds["total"], dofs / sum(seconds[phase] for phase in SOLVE)]
-            first = first or rates
-            row = [name, degree, dofs, summary["iterations"]["linear"]] + \
-                [f"{seconds.get(phase, 0):.2f}" for phase in PHASES] + \
-                [f"{seconds['total']:.2f}"] + \
-                [f"{rate / one:.2f}" for rate, one in zip(rates, first)] + \
-                [f"{summary['peak_memory_mib']:.0f}"]
-            print("| " + " | ".join(str(entry) for entry in row) + " |", flush=True)
+        begin = time.monotonic()
+        subprocess.run([*command, '--output', directory], env=environment, stdout=subprocess.DEVNULL, check=True)
+        wall = time.monotonic() - begin
+        with open(os.path.join(directory, 'summary.json')) as file:
+            return wall, json.load(file)
 
 
 def main():
     program, scene = sys.argv[1:3]
-    most = int(sys.argv[3]) if len(sys.argv) > 3 else 2
-    ranks = [1 << k for k in range(most.bit_length()) if 1 << k <= most]
-    strong = []
-    for n in ranks:
-        strong.append((n, 1, n, 256, 3584))
-        if n > 1:
-            strong.append((f"{n} apart", n, 1, 256, 3584 // n))
-    table("Strong scaling; apart: as many runs of one process each, side by side", program, scene,
-          strong)
-    table("Weak scaling: speed-up is that of unknowns per second", program, scene,
-          [(n, 1, n, 128, 1792 * n) for n in ranks])
+    most = int(sys.argv[3]) if len(sys.argv) > 3 else 4
+    counts = [1 << k for k in range(most.bit_length()) if 1 << k <= most]
+    titles = ['scene', 'processes', 'unknowns', 'seconds', 'wall', 'wall, times that of one',
+              'MiB of the largest process', 'times that of one']
+    print('| ' + ' | '.join(titles) + ' |\n|' + ' --- |' * len(titles))
+    for name, settings in SCENES:
+        turns = [[run(program, scene, n, settings) for n in counts] for _ in range(3)]
+        fastest = [min(runs, key=lambda timed: timed[0]) for runs in zip(*turns)]
+        wall_of_one, memory_of_one = fastest[0][0], fastest[0][1]['peak_memory_mib']
+        for n, (wall, summary) in zip(counts, fastest):
+            memory = summary['peak_memory_mib']
+            print(f'| {name} | {n} | {summary["mesh"]["dofs"]} | {summary["seconds"]["total"]:.2f} | {wall:.2f} | '
+                  f'{wall / wall_of_one:.2f} | {memory:.0f} | {memory / memory_of_one:.2f} |', flush=True)
 
 
 main()
