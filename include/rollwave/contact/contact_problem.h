@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace rollwave {
@@ -34,6 +35,9 @@ struct ContactOptions {
   UzawaStop stop = UzawaStop::gap;
   double tolerance = 1e-8;
   unsigned int most_steps = 20000;
+
+  auto members() const { return std::tie(method, rho, stop, tolerance, most_steps); }
+  bool operator==(const ContactOptions& other) const { return members() == other.members(); }
 };
 
 /**

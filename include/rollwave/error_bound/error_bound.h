@@ -2,6 +2,7 @@
 
 #include "rollwave/error_bound/admissible_displacement.h"
 
+#include <tuple>
 #include <vector>
 
 namespace rollwave {
@@ -15,6 +16,9 @@ class RunStatistics;
 struct CertificateOptions {
   bool error_bound = true;
   bool load_bounds = false;
+
+  auto members() const { return std::tie(error_bound, load_bounds); }
+  bool operator==(const CertificateOptions& other) const { return members() == other.members(); }
 };
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.

@@ -3,6 +3,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <memory>
+#include <tuple>
 
 namespace rollwave {
 
@@ -26,6 +27,11 @@ struct MeshOptions {
   unsigned int angular_cells = 200;
   unsigned int global_refinements = 0;
   unsigned int most_unknowns = 5000000;
+
+  auto members() const {
+    return std::tie(degree, radial_cells, angular_cells, global_refinements, most_unknowns);
+  }
+  bool operator==(const MeshOptions& other) const { return members() == other.members(); }
 };
 
 /// The number of unknowns of the first mesh; nodes on the hub are not unknowns.

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace rollwave {
@@ -19,6 +20,11 @@ struct CylinderOptions {
   double outer_radius = 1;
   double angular_velocity = 0.5;
   std::string radial_force = "0";
+
+  auto members() const {
+    return std::tie(inner_radius, outer_radius, angular_velocity, radial_force);
+  }
+  bool operator==(const CylinderOptions& other) const { return members() == other.members(); }
 };
 
 /// Section `Road`.
@@ -28,6 +34,9 @@ struct RoadOptions {
   LoadKind load_kind = LoadKind::vertical;
   double curvature = 0;
   std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
+
+  auto members() const { return std::tie(distance, load, load_kind, curvature, contact_zone); }
+  bool operator==(const RoadOptions& other) const { return members() == other.members(); }
 };
 
 /// Angles that are closer are the same: those of a mesh carry round-off of a few units in the last

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 
 namespace rollwave {
 
 /// The user's names for the units of a consistent system; empty without names.
 struct UnitNames {
   std::string length, time, force;
+
+  auto members() const { return std::tie(length, time, force); }
+  bool operator==(const UnitNames& other) const { return members() == other.members(); }
 };
 
 /// Section `Material` and `Output/Unit names`. With the defaults the shear modulus, the speed of
@@ -16,6 +20,9 @@ struct MaterialOptions {
   double density = 1;       ///< rho
   double width = 1;         ///< of the cylinder, along its axle
   UnitNames unit_names;
+
+  auto members() const { return std::tie(shear_modulus, density, width, unit_names); }
+  bool operator==(const MaterialOptions& other) const { return members() == other.members(); }
 
   /// True if any of the numbers is not 1.
   bool is_given() const { return shear_modulus != 1 || density != 1 || width != 1; }
