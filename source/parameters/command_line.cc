@@ -4,6 +4,8 @@
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+
 namespace rollwave {
 
 std::string usage() {
@@ -29,9 +31,15 @@ Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 CommandLine read_command_line(const std::vector<std::string>& arguments) {
   CommandLine line;
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    // "--output DIR" and "--output=DIR"
+    const auto takes_value = [&](const std::string& option) {
+      return *argument == option || boost::algorithm::starts_with(*argument, option + '=');
+    };
     const auto option_value = [&]() {
+      if (const auto equals = argument->find('='); equals != std::string::npos)
+        return argument->substr(equals + 1);
       const std::string option = *argument;
-      if (++argument == arguments.end())
+      if (++argument == arguments.end() || boost::algorithm::starts_with(*argument, "-"))
         throw BadInput(option + " needs a value after it; see rollwave --help");
       return *argument;
     };
@@ -45,9 +53,9 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       line.action = CommandLine::Action::quantities;
     else if (*argument == "--verify")
       line.verify = true;
-    else if (*argument == "--output")
+    else if (takes_value("--output"))
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
-    else if (*argument == "--set")
+    else if (takes_value("--set"))
       line.settings.push_back(parse_setting(option_value(), "--set"));
     else if (argument->size() > 1 && argument->front() == '-')
       throw BadInput("unknown option " + printable(*argument) + "; see rollwave --help");
@@ -66,7 +74,7 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
   std::vector<Setting> settings;
   if (!line.file.empty()) {
     settings = read_settings(line.file, communicator);
-    if (!last_of(settings, "Output/Directory"))
+    if (!last_of(settings, "Output/Directory") && !last_of(line.settings, "Output/Directory"))
       settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
                           "default from the name of " + printable(line.file.string())});
   }
