@@ -24,7 +24,8 @@ namespace {
   text << "no distance gives this load: the road is " << where << " the axle at the distance "
        << distance * scene.units.length << scene.units.after(Quantity::length)
        << ", and the load there is about " << load * scene.units.of(Quantity::force)
-       << scene.units.after(Quantity::force);
+       << scene.units.after(Quantity::force)
+       << (scene.units.material.is_given() ? "; Material/Shear modulus may be in another unit" : "");
   throw BadValue("Road", "Load", text.str());
 }
 
