@@ -55,7 +55,7 @@ void run_action(const std::vector<std::string>& arguments, MPI_Comm communicator
 } // namespace
 
 int main(int argc, char* argv[]) {
-  const bool has_memory = fit_blas_into_address_space(argv);
+  const bool has_memory = take_blas_buffer();
   install_signal_handlers();
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
   bool is_first = true;
@@ -79,7 +79,7 @@ int main(int argc, char* argv[]) {
   };
   try {
     if (!has_memory)
-      throw NotEnoughMemory();
+      throw NotSolved("not enough memory; raise the limit of the address space (ulimit -v)");
     std::ostream silence(nullptr);
     run_action({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
                is_first ? std::cout : silence);

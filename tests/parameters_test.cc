@@ -7,9 +7,12 @@
 #include "rollwave/study/study_plan.h"
 #include "test_scenes.h"
 
+#include <deal.II/base/parameter_handler.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -34,7 +37,7 @@ std::string refusal_of(const std::vector<std::string>& assignments) {
 
 std::string refusal_of_text(const std::string& text) {
   try {
-    parse_settings(text, "scene.prm");
+    read_parameters(parse_settings(text, "scene.prm"));
   } catch (const BadInput& error) {
     return error.what();
   }
@@ -96,9 +99,83 @@ TEST(Parameters, NamesThatAreUnknownGiveTheNearestKnown) {
            {"mesh/degree=2", "Mesh/Degree"},
            {"Study/Vary=degree = 1 | 2", "Mesh/Degree"},
            {"Study/Scenes=flat: Rode/Curvature = 0", "Road/Curvature"}})
-    expect_parts(refusal_of({setting}), {nearest});
-  expect_parts(refusal_of_text("subsection Contakt\n set Rho = 1\nend\n"), {"1", "Contact"});
-  expect_parts(refusal_of_text("subsection Contact\n set Rhoo = 1\nend\n"), {"2", "Contact/Rho"});
+    expect_parts(refusal_of({setting}), {"did you mean", nearest});
+  expect_parts(refusal_of_text("subsection Contakt\n set Rho = 1\nend\n"),
+               {"line 1", "did you mean Contact"});
+  expect_parts(refusal_of_text("subsection Contact\n set Rhoo = 1\nend\n"),
+               {"line 2", "did you mean Contact/Rho"});
+}
+
+TEST(Parameters, RefusalsNameLettersThatAreNotSeen) {
+  for (const auto& [text, letter] : std::vector<std::pair<std::string, std::string>>{
+           {"subsection Cylinder\nset Inner  radius = 0.4\nend\n", "two blanks"},
+           {"subsection Cylinder\nset Inner\xC2\xA0radius = 0.4\nend\n", "no-break space"},
+           {"subsection Cylinder\nset Inner radius = 0.4\xC2\xA0\nend\n", "no-break space"},
+           {"subsection\xC2\xA0"
+            "Cylinder\nend\n",
+            "no-break space"},
+           {"subsection Road\nset Curvature = \xE2\x88\x92"
+            "0.4\nend\n",
+            "not ASCII"}})
+    expect_parts(refusal_of_text(text), {letter});
+  const std::string marked = "\xEF\xBB\xBFsubsection Mesh\n set Degree = 3\nend\n";
+  EXPECT_EQ(read_parameters(parse_settings(marked, "file")).mesh.degree, 3u);
+}
+
+TEST(Parameters, NumbersMayBeExpressionsOfNumbers) {
+  const Parameters p = parameters_of(
+      {"Road/Curvature=1/150", "Material/Shear modulus=4.5 / (2 * (1 + 0.49))",
+       "Road/Contact zone=3*pi/2 - 0.5, 5", "Mesh/Angular cells=4*48", "Contact/Rho=sqrt(2)",
+       "Mesh/Most unknowns=5e6", "Road/Distance=1 - 1/4", "Mesh/Wanted relative error=2^-7"});
+  EXPECT_EQ(p.road.curvature, 1. / 150);
+  EXPECT_EQ(p.material.shear_modulus, 4.5 / (2 * (1 + 0.49)));
+  EXPECT_EQ(p.road.contact_zone, std::pair(3 * M_PI / 2 - 0.5, 5.));
+  EXPECT_EQ(p.mesh.angular_cells, 192u);
+  EXPECT_EQ(p.contact.rho, std::sqrt(2.));
+  EXPECT_EQ(p.mesh.most_unknowns, 5000000u);
+  EXPECT_EQ(p.road.distance, 0.75);
+  EXPECT_EQ(p.mesh.wanted_relative_error, 1. / 128);
+  // Files show the values.
+  std::ostringstream text;
+  print_parameters(text, p.settings);
+  for (const Setting& setting : parse_settings(text.str(), "printed"))
+    EXPECT_EQ(setting.value.find_first_of("/()*^"), std::string::npos) << setting.value;
+  EXPECT_EQ(read_parameters(parse_settings(text.str(), "printed")).road.curvature, 1. / 150);
+}
+
+TEST(Parameters, NumbersOfAStudyMayBeExpressionsOfNumbers) {
+  const Parameters p = parameters_of(
+      {"Study/Vary=Road/Curvature = 1/150 | -1/4 : 1/4 : 1/8; Cylinder/Radial force = r/2 | 1/2",
+       "Study/Scenes=fast: Cylinder/Angular velocity = 1/(2*2)"});
+  std::vector<double> curvatures;
+  for (const auto& choice : p.study.vary.at(0))
+    curvatures.push_back(to_number(choice.at(0).value));
+  EXPECT_EQ(curvatures, (std::vector<double>{1. / 150, -0.25, -0.125, 0, 0.125, 0.25}));
+  EXPECT_EQ(p.study.vary.at(1).at(0).at(0).value, "r/2");
+  EXPECT_EQ(p.study.scenes.at(0).settings.at(0).value, "0.25");
+}
+
+// Equal values are equal texts, in files and titles as well.
+TEST(Parameters, NumbersHaveOneSpelling) {
+  for (const char* text : {"0.80", "+0.8", "8e-1", "4/5"})
+    EXPECT_EQ(parameters_of({std::string("Road/Distance=") + text}).settings.at(0).value, "0.8");
+  for (const char* text : {"200000", "2e5", "2E+05", "10^5 * 2"})
+    EXPECT_EQ(parameters_of({std::string("Material/Shear modulus=") + text}).settings.at(0).value,
+              "200000");
+  EXPECT_EQ(parameters_of({"Cylinder/Outer radius=1e15"}).settings.at(0).value, "1e+15");
+}
+
+TEST(Parameters, RefuseAKeyTwice) {
+  for (const auto& [scenes, vary] : std::vector<std::pair<std::string, std::string>>{
+           {"one: Mesh/Degree = 1 & Mesh/Degree = 2", ""},
+           {"one: Mesh/Degree = 1", "Mesh/Degree = 1 | 2"},
+           {"one: Road/Load = 0.1", "Road/Distance = 0.7 | 0.8"}})
+    expect_parts(refusal_of({"Study/Scenes=" + scenes, "Study/Vary=" + vary}),
+                 {"section Study", scenes.substr(5, 4)});
+  for (const char* value : {"2", "{2}"})
+    expect_parts(refusal_of_text("subsection Mesh\nset Degree = " + std::string(value) +
+                                 "\nset Degree = 1\nend\n"),
+                 {"line 3", "second value"});
 }
 
 TEST(Parameters, RefusalsNameOriginSectionKeyValueAndRange) {
@@ -111,6 +188,38 @@ TEST(Parameters, RefusalsNameOriginSectionKeyValueAndRange) {
                {"scene.prm", "line 3", "Road", "Distance", "\"0,8\""});
   expect_parts(refusal_of({"Contact/Tolerance=1"}), {"Contact", "Tolerance", "1e-15 to 0.1"});
   expect_parts(refusal_of({"Road/Load=-1"}), {"Road", "Load", "-1", "greater than 0"});
+}
+
+// The last number that a key counts with is in its text.
+TEST(Parameters, RefusalsOfWholeNumbersGiveTheLargest) {
+  for (const char* key :
+       {"Mesh/Most unknowns", "Mesh/Radial cells", "Mesh/Angular cells", "Contact/Most steps"}) {
+    expect_parts(refusal_of({key + std::string("=2147483648")}), {"2147483647"});
+    EXPECT_NO_THROW(parameters_of({key + std::string("=2147483647")}));
+  }
+}
+
+// In the user's units the critical speed is seldom a short number.
+TEST(Parameters, AcceptTheCriticalSpeedAsTheScreenShowsIt) {
+  const std::vector<std::string> roller = {"Cylinder/Inner radius=0.0125",
+                                           "Cylinder/Outer radius=0.025", "Road/Distance=0.02",
+                                           "Material/Shear modulus=5e5", "Material/Density=1100"};
+  const double critical = std::sqrt(5e5 / 1100) / 0.025; // 852.802865...
+  for (const auto& [speed, is_accepted] :
+       std::vector<std::pair<std::string, bool>>{{"852.803", true},
+                                                 {"852.8029", true},
+                                                 {"852.80287", true},
+                                                 {"sqrt(5e5/1100)/0.025", true},
+                                                 {"852.804", false},
+                                                 {"852.80291", false},
+                                                 {"853", false}}) {
+    const Parameters p = with(parameters_of(roller), {"Cylinder/Angular velocity=" + speed});
+    EXPECT_NEAR(critical_speed(p.cylinder, p.material), critical, 1e-12 * critical);
+    if (is_accepted)
+      EXPECT_DOUBLE_EQ(make_scene(p).angular_velocity, 1 / make_scene(p).outer_radius) << speed;
+    else
+      EXPECT_THROW(make_scene(p), BadValue) << speed;
+  }
 }
 
 class RefusedSetting : public testing::TestWithParam<const char*> {};
@@ -150,7 +259,9 @@ INSTANTIATE_TEST_SUITE_P(
         "Mesh/Wanted relative error=5%", "Road/Distance=0.8, 0.9", "Road/Distance=0.8\xC2\xA0",
         "Certificate/Error bound=yes", "Road/Distance=none", "Output/Unit names=m, s",
         "Output/Unit names=m, s, `id`", "Output/Unit names=m, s, $N", "Output/Unit names=m, s, N'",
-        "Output/Unit names=m, s, \\N"));
+        "Output/Unit names=m, s, \\N", "Output/Directory=~/res", "Road/Curvature=1/0",
+        "Road/Curvature=r", "Road/Curvature=1/", "Road/Curvature=max(1,2), 3",
+        "Road/Curvature=(1/150", "Mesh/Degree=3/2", "Cylinder/Inner radius=1/2,5"));
 
 TEST(Parameters, RefuseABraceInAFile) {
   expect_parts(refusal_of_text("subsection Mesh\n set Degree = {1|2}\nend\n"), {"Mesh", "Degree"});
@@ -244,6 +355,7 @@ TEST(Parameters, RefuseTextsOfAnyLengthShortly) {
   const std::string longest(1 << 20, '(');
   for (const std::string& setting :
        {"Cylinder/Radial force=" + longest, "Cylinder/" + longest + "=1", longest + "/Degree=1",
+        "Road/Distance=0" + std::string(30000, 'a'), "Road/Distance=0.8" + longest,
         "Mesh/Degree=\x1b[2J" + longest, std::string("Cylinder/Radial force=\x1b[2J")}) {
     const std::string message = refusal_of({setting});
     EXPECT_LT(message.size(), 1000u);
@@ -384,7 +496,7 @@ TEST(Settings, HaveTheirSectionKeyAndValue) {
   ASSERT_EQ(settings.size(), 2u);
   EXPECT_EQ(settings[0].path(), "Mesh/Degree");
   EXPECT_EQ(settings[0].value, "2");
-  EXPECT_EQ(settings[0].origin, "file, line 4");
+  EXPECT_EQ(settings[0].place(), "file, line 4");
   EXPECT_EQ(settings[1].path(), "Study/Vary");
   EXPECT_EQ(settings[1].value, "Mesh/Degree = 1 | 2");
   const Setting setting = parse_setting("Contact/Most steps = 7", "--set");
@@ -393,6 +505,34 @@ TEST(Settings, HaveTheirSectionKeyAndValue) {
   EXPECT_EQ(parse_setting("Study/Vary=a/b=c", "--set").value, "a/b=c");
   EXPECT_EQ(parse_setting("a=b/c", "--set").section, "");
   EXPECT_THROW(parse_setting("Contact", "--set"), BadInput);
+}
+
+// Users know the form of the files from deal.II, which also writes them.
+TEST(Settings, AreThoseThatDealIIReads) {
+  std::vector<std::string> texts = {"# nothing\n", "SUBSECTION Mesh\nSET Degree = 3 # Q3\nEND",
+                                    "subsection Study\n set Vary = Mesh/Degree = 1 \\\n"
+                                    "  | 2 \\ \n | 3 # three \\\n of them\nend\n"};
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(ROLLWAVE_PRM_DIRECTORY))
+    if (entry.path().extension() == ".prm") {
+      std::ifstream file(entry.path());
+      texts.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+  for (const std::string& text : texts) {
+    SCOPED_TRACE(text);
+    dealii::ParameterHandler prm;
+    for (const Key& key : all_keys()) {
+      prm.enter_subsection(key.section);
+      prm.declare_entry(key.name, key.default_value, dealii::Patterns::Anything());
+      prm.leave_subsection();
+    }
+    prm.parse_input_from_string(text);
+    const auto settings = parse_settings(text, "file");
+    for (const Key& key : all_keys()) {
+      prm.enter_subsection(key.section);
+      EXPECT_EQ(value_of(key, settings), prm.get(key.name)) << key.path();
+      prm.leave_subsection();
+    }
+  }
 }
 
 TEST(Settings, RefuseBadSyntax) {
@@ -404,6 +544,8 @@ TEST(Settings, RefuseBadSyntax) {
            {"subsection Road\nsubsection Mesh\nend\nend\n", "2"},
            {"subsection\nend\n", "1"},
            {"subsection Mesh\nset Degree = 1\nset Degree = 2\nend\n", "Degree"},
+           {"subsection Mesh\nend of it\n", "line 2"},
+           {"set Degree = 1\n", "line 1"},
            {"include scene.prm\n", "line 1"}})
     expect_parts(refusal_of_text(text), {"scene.prm", part});
 }
@@ -415,8 +557,30 @@ TEST(Settings, RefuseArgumentsThatAreNotUnderstood) {
                                              {"a.prm", "b.prm"},
                                              {"a.prm", "--set"},
                                              {"a.prm", "--set", "Mesh"},
-                                             {"a.prm", "--output"}})
+                                             {"a.prm", "--output"},
+                                             {"a.prm", "--output", "--verify"},
+                                             {"a.prm", "--set", "--verify"},
+                                             {"a.prm", "--verify=1"},
+                                             {"a.prm", "--outputs=x"}})
     EXPECT_THROW(read_command_line(arguments), BadInput) << testing::PrintToString(arguments);
+}
+
+TEST(Settings, OfOptionsMayStandBehindAnEqualsSign) {
+  const CommandLine line = read_command_line(
+      {"--output=a=b", "--set=Cylinder/Radial force=r == 1", "--set", "Mesh/Degree=1", "a.prm"});
+  ASSERT_EQ(line.settings.size(), 3u);
+  EXPECT_EQ(line.settings[0].path() + ' ' + line.settings[0].value, "Output/Directory a=b");
+  EXPECT_EQ(line.settings[1].path() + ' ' + line.settings[1].value, "Cylinder/Radial force r == 1");
+  EXPECT_EQ(line.settings[2].path() + ' ' + line.settings[2].value, "Mesh/Degree 1");
+}
+
+TEST(Settings, ADirectoryReplacesTheOneOfTheFilesName) {
+  const std::filesystem::path file = own_path().string() + "#b.prm";
+  std::ofstream(file) << "# nothing\n";
+  const CommandLine line = read_command_line({file.string(), "--output", "o"});
+  EXPECT_EQ(read_parameters(settings_of(line, MPI_COMM_SELF)).output.directory, "o");
+  const CommandLine without = read_command_line({file.string()});
+  EXPECT_THROW(read_parameters(settings_of(without, MPI_COMM_SELF)), BadInput);
 }
 
 TEST(Settings, RefuseAFileThatCannotBeRead) {

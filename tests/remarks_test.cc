@@ -26,10 +26,13 @@ bool have(const std::vector<std::string>& remarks, const std::string& text) {
 }
 
 TEST(Remarks, AreAbsentForOrdinaryScenes) {
-  for (const char* distance : {"0.8", "0.95", "1.1"})
+  for (const char* distance : {"0.9", "0.95", "1.1"})
     EXPECT_TRUE(remarks_with({std::string("Road/Distance=") + distance}).empty()) << distance;
   // Wider than contact is, the zone changes nothing.
-  EXPECT_TRUE(remarks_with({"Road/Contact zone=3.9, 5.6"}).empty());
+  EXPECT_TRUE(remarks_with({"Road/Distance=0.9", "Road/Contact zone=3.9, 5.6"}).empty());
+  EXPECT_TRUE(remarks_with({"Cylinder/Outer radius=1 + 1/4", "Road/Distance=1.1",
+                            "Cylinder/Angular velocity=1/(1 + 1/4)", "Road/Curvature=2"})
+                  .empty());
 }
 
 TEST(Remarks, GiveThePenetrationOutsideOfTheZone) {
@@ -43,9 +46,21 @@ TEST(Remarks, GiveThePenetrationOutsideOfTheZone) {
 }
 
 TEST(Remarks, WarnBeyondTheLinearModel) {
-  for (const char* setting : {"Road/Distance=0.55", "Cylinder/Radial force=10"})
+  // The displacement is at least 1 - c at the lowest point; a quarter of the thickness is 0.125.
+  for (const char* setting :
+       {"Road/Distance=0.55", "Road/Distance=0.87", "Cylinder/Radial force=10"})
     EXPECT_TRUE(have(remarks_with({setting}), "linear model")) << setting;
+  EXPECT_FALSE(have(remarks_with({"Road/Distance=0.88"}), "linear model"));
   EXPECT_TRUE(have(remarks_with({"Cylinder/Radial force=100"}), "the end of the automatic zone"));
+}
+
+TEST(Remarks, WarnWhereANumberIsLikelyToBeMeantOtherwise) {
+  EXPECT_TRUE(have(remarks_with({"Road/Curvature=10.1"}), "one over the radius"));
+  EXPECT_FALSE(have(remarks_with({"Road/Curvature=9.9"}), "one over the radius"));
+  EXPECT_FALSE(have(remarks_with({"Road/Curvature=-0.9"}), "one over the radius"));
+  const auto rounded_up = remarks_with(
+      {"Cylinder/Outer radius=0.7", "Road/Distance=0.65", "Cylinder/Angular velocity=1.42857143"});
+  EXPECT_TRUE(have(rounded_up, "1.42857142857")); // 1/0.7
 }
 
 TEST(Remarks, WarnIfTheMeshDoesNotResolveTheContact) {

@@ -25,6 +25,14 @@ std::string in_quotes(const std::string& text) {
   return '"' + printable(text) + '"';
 }
 
+std::string hint_on_letters(const std::string& text) {
+  if (text.find("\xC2\xA0") != std::string::npos)
+    return "; it has a no-break space";
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c > 0x7f; }))
+    return "; it has a letter that is not ASCII";
+  return text.find("  ") == std::string::npos ? "" : "; it has two blanks in a row";
+}
+
 std::string trimmed(const std::string& text) {
   return boost::algorithm::trim_copy(text, std::locale::classic());
 }

@@ -4,6 +4,7 @@
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/parameters.h"
 
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/replace.hpp>
 
 #include <sstream>
@@ -52,6 +53,8 @@ std::string command_without_part(const std::vector<std::string>& arguments) {
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument)
     if (*argument == "--part")
       ++argument;
+    else if (boost::algorithm::starts_with(*argument, "--part="))
+      continue;
     else if (argument->find_first_of(" \t'\"\\$`&|;<>()*?[]#~{}!") == std::string::npos)
       command += ' ' + *argument;
     else
@@ -64,9 +67,15 @@ std::string command_without_part(const std::vector<std::string>& arguments) {
 CommandLine read_command_line(const std::vector<std::string>& arguments) {
   CommandLine line;
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
+    // "--output DIR" and "--output=DIR"
+    const auto takes_value = [&](const std::string& option) {
+      return *argument == option || boost::algorithm::starts_with(*argument, option + '=');
+    };
     const auto option_value = [&]() {
+      if (const auto equals = argument->find('='); equals != std::string::npos)
+        return argument->substr(equals + 1);
       const std::string option = *argument;
-      if (++argument == arguments.end())
+      if (++argument == arguments.end() || boost::algorithm::starts_with(*argument, "-"))
         throw BadInput(option + " needs a value after it; see rollwave --help");
       return *argument;
     };
@@ -80,11 +89,11 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
       line.action = CommandLine::Action::quantities;
     else if (*argument == "--verify")
       line.verify = true;
-    else if (*argument == "--part")
+    else if (takes_value("--part"))
       line.part = parse_part(option_value());
-    else if (*argument == "--output")
+    else if (takes_value("--output"))
       line.settings.push_back({"Output", "Directory", option_value(), "--output"});
-    else if (*argument == "--set")
+    else if (takes_value("--set"))
       line.settings.push_back(parse_setting(option_value(), "--set"));
     else if (argument->size() > 1 && argument->front() == '-')
       throw BadInput("unknown option " + printable(*argument) + "; see rollwave --help");
@@ -105,7 +114,7 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
   std::vector<Setting> settings;
   if (!line.file.empty()) {
     settings = read_settings(line.file, communicator);
-    if (!last_of(settings, "Output/Directory"))
+    if (!last_of(settings, "Output/Directory") && !last_of(line.settings, "Output/Directory"))
       settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
                           "default from the name of " + printable(line.file.string())});
   }

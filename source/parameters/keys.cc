@@ -1,17 +1,16 @@
 #include "rollwave/parameters/keys.h"
 
 #include "rollwave/base/text.h"
+#include "rollwave/scene/expression.h"
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
+#include <cmath>
+#include <limits>
 #include <set>
-#include <sstream>
 #include <utility>
 
 namespace rollwave {
-
-using namespace dealii;
 
 namespace {
 
@@ -31,18 +30,21 @@ unsigned int edit_distance(const std::string& from, const std::string& to) {
   return row.back();
 }
 
-std::string refusal_of(const Setting& setting, const std::string& reason) {
-  return setting.origin + ": section " + in_quotes(setting.section) + ", key " +
-         in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
-}
-
-/// Advice on a number that is followed by a comma or letters; empty for other texts.
-std::string hint_on_number(const std::string& value) {
-  static const std::regex number(R"([+-]?\d[\d.]*([eE][+-]?\d+)?)"),
-      number_and_more(R"([+-]?\d[\d.]* *[,a-zA-Z].*)");
-  return !std::regex_match(value, number) && std::regex_match(value, number_and_more)
-             ? " (a number has a decimal point and no unit)"
-             : "";
+/// The keys, or without a name the sections, that are spelt most like these: up to three.
+std::string nearest(const std::string& section, const std::string& name) {
+  std::set<std::pair<unsigned int, std::string>> known;
+  for (const Key& key : all_keys()) {
+    const unsigned int distance =
+        (section.empty() ? 0 : edit_distance(printable(section), key.section)) +
+        (name.empty() ? 0 : edit_distance(printable(name), key.name));
+    known.emplace(distance, name.empty() ? key.section : key.path());
+  }
+  std::string text;
+  constexpr unsigned int similar = 3; // further letters
+  for (auto candidate = known.begin(); candidate != std::next(known.begin(), 3); ++candidate)
+    if (candidate->first <= known.begin()->first + similar)
+      text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
+  return text + "? (case matters)" + hint_on_letters(section + ' ' + name);
 }
 
 } // namespace
@@ -62,136 +64,75 @@ const Setting* last_of(const std::vector<Setting>& settings, const std::string& 
   return last == settings.rend() ? nullptr : &*last;
 }
 
+std::string refusal(const Setting& setting, const std::string& reason) {
+  return setting.place() + ": section " + in_quotes(setting.section) + ", key " +
+         in_quotes(setting.key) + ", value " + in_quotes(setting.value) + ": " + reason;
+}
+
 std::string refusal(const std::vector<Setting>& settings, const BadValue& value) {
   if (const Setting* const last = last_of(settings, value.section + '/' + value.key))
-    return refusal_of(*last, value.reason);
+    return refusal(*last, value.reason);
   return "default value: section " + in_quotes(value.section) + ", key " + in_quotes(value.key) +
          ": " + value.reason;
 }
 
-void Keys::enter(const std::string& name, unsigned int affects) {
-  section = name;
-  affected = affects;
-}
-
-void Keys::declare(const std::string& name, const std::string& default_value, const Parse& parse,
-                   const std::string& text, const KeyAttributes& attributes) {
-  keys.push_back({attributes, section, name, default_value, text});
-  keys.back().affects |= affected;
-  prm.enter_subsection(section);
-  prm.declare_entry(name, default_value, Patterns::Anything(), text);
-  prm.add_action(name, [this, section = section, name, text, parse](const std::string& value) {
-    const Setting setting{section, name, value, origin ? origin() : ""};
-    try {
-      parse(setting);
-    } catch (const BadInput& error) {
-      const std::string reason = error.what();
-      throw BadInput(refusal_of(setting, reason.empty() ? "invalid" + hint_on_number(value) +
-                                                              ". Expected: " + text
-                                                        : reason));
-    }
-    if (origin)
-      settings.push_back(setting);
-  });
-  prm.leave_subsection();
-}
-
-/// The key of a setting. @throws BadInput with the nearest keys where there is none
-const Key& Keys::at(const Setting& setting) const {
+const Key& key_of(const Setting& setting) {
+  const auto& keys = all_keys();
   const auto key = std::find_if(keys.begin(), keys.end(), [&](const Key& known) {
-    return known.section == setting.section && known.name == setting.key;
+    return known.name == setting.key && known.section == setting.section;
   });
   if (key == keys.end())
-    throw BadInput(setting.origin + ": no key " + in_quotes(setting.key) +
+    throw BadInput(setting.place() + ": no key " + in_quotes(setting.key) +
                    (setting.section.empty() ? "" : " in section " + in_quotes(setting.section)) +
                    nearest(setting.section, setting.key));
   return *key;
 }
 
-/// The keys, or without a name the sections, that are spelt most like these: up to three.
-std::string Keys::nearest(const std::string& section, const std::string& name) const {
-  std::set<std::pair<unsigned int, std::string>> known;
-  for (const Key& key : keys) {
-    const unsigned int distance =
-        (section.empty() ? 0 : edit_distance(printable(section), key.section)) +
-        (name.empty() ? 0 : edit_distance(printable(name), key.name));
-    known.emplace(distance, name.empty() ? key.section : key.path());
-  }
-  std::string text;
-  constexpr unsigned int similar = 3; // further letters
-  for (auto candidate = known.begin(); candidate != std::next(known.begin(), 3); ++candidate)
-    if (candidate->first <= known.begin()->first + similar)
-      text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
-  return text + "? (case matters)";
+std::string value_of(const Key& key, const std::vector<Setting>& settings) {
+  const Setting* const last = last_of(settings, key.path());
+  return last ? last->value : key.default_value;
 }
 
-void Keys::read(const std::string& text, const std::string& file) {
-  std::istringstream in(text + '\n');
-  origin = [&] {
-    const std::string before = (text + '\n').substr(0, in.tellg());
-    return file + ", line " + std::to_string(std::count(before.begin(), before.end(), '\n'));
-  };
-  for (std::string line; std::getline(in, line);)
-    if (line = trimmed(line).substr(0, 7); line == "include" || line == "INCLUDE")
-      throw BadInput(origin() + ": a parameter file cannot include others");
-  in.clear();
-  in.seekg(0);
-  try {
-    prm.parse_input(in, file);
-  } catch (const ExceptionBase& error) {
-    constexpr unsigned int longest = 300;
-    std::ostringstream complaint;
-    error.print_info(complaint);
-    std::string message =
-        std::regex_replace(trimmed(complaint.str().substr(0, longest)), std::regex("\\s+"), " ");
-    // deal.II repeats the name of the file.
-    message =
-        std::regex_replace(message, std::regex("^Line <(\\d+)> of file <[^:]*: "), "line $1: ");
-    message = std::regex_replace(message, std::regex("\\.$"), "");
-    std::smatch unknown;
-    std::string hint;
-    if (std::regex_search(message, unknown, std::regex("No entry with name <(.*)>.*"))) {
-      hint = nearest("", unknown[1]);
-      message =
-          std::string(unknown.prefix()) + "no key " + in_quotes(unknown[1]) + " in this section";
-    } else if (std::regex_search(message, unknown, std::regex("could not be parsed.*")))
-      message = std::string(unknown.prefix()) + "is not of the form set KEY = VALUE, subsection "
-                                                "NAME or end";
-    else if (std::regex_search(message, unknown, std::regex("subsection to be entered: (.*)")))
-      hint = std::string(unknown[1]).find('.') == std::string::npos
-                 ? nearest(unknown[1], "")
-                 : "; the section before it may lack its \"end\"";
-    throw BadInput(file + ": " + printable(message, longest) + hint);
-  }
-  for (const Setting& setting : settings)
-    if (const Setting& last = *last_of(settings, setting.path()); &last != &setting)
-      throw BadInput(refusal_of(last, "this is the second value of the key"));
-  // deal.II takes values with a brace as lists for its own studies, without calling actions.
-  for (const Key& key : keys) {
-    prm.enter_subsection(key.section);
-    const std::string value = prm.get(key.name);
-    prm.leave_subsection();
-    if (value.find('{') != std::string::npos)
-      set({key.section, key.name, value, file});
-  }
+void check_section(const std::string& name, const std::string& place) {
+  const auto& keys = all_keys();
+  if (std::none_of(keys.begin(), keys.end(), [&](const Key& key) { return key.section == name; }))
+    throw BadInput(place + ": no section " + in_quotes(name) + nearest(name, ""));
 }
 
-void Keys::set(const Setting& setting) {
-  const Key& key = at(setting);
+void apply(Setting& setting, Parameters& parameters) {
+  const Key& key = key_of(setting);
   const std::string& value = setting.value;
   if (value != trimmed(value) || value.find('#') != std::string::npos ||
       std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c); }) ||
       (!value.empty() && value.back() == '\\'))
-    throw BadInput(refusal_of(setting, "a parameter file cannot hold #, control characters, blanks "
-                                       "at the ends or a backslash at the end of a value"));
-  origin = [&] { return setting.origin; };
-  prm.enter_subsection(key.section);
-  prm.set(key.name, value);
-  prm.leave_subsection();
+    throw BadInput(refusal(setting, "a parameter file cannot hold #, control characters, blanks "
+                                    "at the ends or a backslash at the end of a value"));
+  try {
+    key.convert(setting, parameters);
+  } catch (const std::invalid_argument& error) {
+    throw BadInput(refusal(setting, std::string("invalid. ") + error.what() +
+                                        (*error.what() ? " " : "") + "Expected: " + key.text +
+                                        hint_on_letters(value)));
+  } catch (const BadInput& error) {
+    throw BadInput(refusal(setting, error.what()));
+  }
+  parameters.settings.push_back(setting);
 }
 
-void Keys::print(std::ostream& out) const {
-  prm.print_parameters(out, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+double convert_number(std::string& text, const Range& range, bool is_whole) {
+  const double number = evaluate(text);
+  if (!(range.least <= number && number <= range.most))
+    throw std::invalid_argument("");
+  if (is_whole && number != std::floor(number))
+    throw std::invalid_argument("It must be a whole number.");
+  text = number_text(number);
+  return number;
+}
+
+std::string number_text(double number) {
+  constexpr int exact = std::numeric_limits<double>::digits10;
+  const bool is_plain = number == std::floor(number) && std::abs(number) < 1e15;
+  return is_plain ? rounded(number, exact) : shortest_text(number);
 }
 
 } // namespace rollwave

@@ -1,12 +1,12 @@
 #include "rollwave/parameters/output_options.h"
 
-#include "rollwave/base/errors.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/keys.h"
 
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <stdexcept>
 
 namespace rollwave {
 
@@ -23,7 +23,7 @@ UnitNames parse_unit_names(const std::string& text) {
   if (names.size() != 3 || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
         return name.empty() || !std::all_of(name.begin(), name.end(), is_plain);
       }))
-    throw BadInput("");
+    throw std::invalid_argument("");
   return {names[0], names[1], names[2]};
 }
 
@@ -38,36 +38,41 @@ std::set<OutputFile> parse_files(const std::string& text) {
   for (const std::string& name : split(text, ',')) {
     const auto kind = kinds.find(name);
     if (kind == kinds.end())
-      throw BadInput("");
+      throw std::invalid_argument("");
     files.insert(kind->second);
   }
   return files;
 }
 
-void declare_output(Keys& keys, OutputOptions& output, UnitNames& names) {
-  keys.enter("Output", 0);
+void declare_output(Section<OutputOptions> keys) {
   keys.declare(
-      "Directory", output.directory,
-      [&output](const Setting& setting) {
+      "Directory", OutputOptions().directory,
+      [](Setting& setting, Parameters& p) {
         if (setting.value.empty())
-          throw BadInput("");
-        output.directory = setting.value;
+          throw std::invalid_argument("");
+        if (setting.value.front() == '~')
+          throw BadInput("only a shell knows the directory ~; write its name, or ./~ for a "
+                         "directory whose name begins so");
+        p.output.directory = setting.value;
       },
       "Directory of the files, relative to the current one, made when missing. Where this key is "
       "left out: output/NAME for a parameter file NAME.prm.");
   keys.declare(
       "Files", "summary, contact, solution, surface, plot",
-      [&output](const Setting& setting) { output.files = parse_files(setting.value); },
+      [](Setting& setting, Parameters& p) { p.output.files = parse_files(setting.value); },
       "Files to write in addition to parameters.prm: any of summary (summary.json), contact "
       "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
       "study.svg of a study).");
-  keys.add_choice<CellKind>(
-      "Cells", output.cells, {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
+  keys.add_choice(
+      "Cells", &OutputOptions::cells,
+      {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
       "Cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
       "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
   keys.declare(
       "Unit names", "",
-      [&names](const Setting& setting) { names = parse_unit_names(setting.value); },
+      [](Setting& setting, Parameters& p) {
+        p.material.unit_names = parse_unit_names(setting.value);
+      },
       "Empty, or names of the units of length, time and force, as in \"m, s, N\" or \"mm, s, N\", "
       "of letters, digits, blanks and ^*/.-()%: screen, files and pictures then name the unit of "
       "each number.");

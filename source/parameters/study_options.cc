@@ -3,14 +3,14 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/text.h"
 #include "rollwave/parameters/keys.h"
+#include "rollwave/scene/expression.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 namespace rollwave {
-
-using namespace dealii;
 
 namespace {
 
@@ -40,15 +40,15 @@ std::string without_quotes(const std::string& text) {
 /// a colon. @throws BadInput for numbers that are no such range
 std::vector<std::string> values_of(const std::string& text) {
   const auto parts = split(text, ':');
-  const Patterns::Double number;
-  if (parts.size() < 2 || !std::all_of(parts.begin(), parts.end(),
-                                       [&](const std::string& part) { return number.match(part); }))
+  std::vector<double> numbers;
+  for (const std::string& part : parts)
+    if (const auto number = value_if_any(part))
+      numbers.push_back(*number);
+  if (parts.size() < 2 || numbers.size() < parts.size())
     return {text};
   if (parts.size() != 3)
     throw BadInput(in_quotes(text) + " is no range first : last : step");
-  const double first = converted<double>(parts[0], number),
-               last = converted<double>(parts[1], number),
-               step = converted<double>(parts[2], number);
+  const double first = numbers[0], last = numbers[1], step = numbers[2];
   constexpr unsigned int most_values = 100000;
   const double n_values = step == 0 ? 0 : std::floor((last - first) / step + 1e-9) + 1;
   if (!(n_values >= 1 && n_values <= most_values))
@@ -64,8 +64,9 @@ std::vector<std::string> values_of(const std::string& text) {
 
 /// The assignment of a value, which may be in quotes, to a key that may differ between the runs of
 /// a study.
-Setting parse_run_setting(const std::string& text, const std::string& origin) {
-  Setting setting = parse_setting(text, origin + ", section Study");
+Setting parse_run_setting(const std::string& text, const Setting& study) {
+  Setting setting = parse_setting(text, study.origin + ", section Study");
+  setting.line = study.line;
   if (setting.section == "Study" || setting.section == "Output")
     throw BadInput(setting.path() + " cannot be varied");
   setting.value = without_quotes(setting.value);
@@ -73,7 +74,7 @@ Setting parse_run_setting(const std::string& text, const std::string& origin) {
 }
 
 /// "Key & Key = value & value | ..." or "Key = value | ...".
-Variation parse_variation(const std::string& text, const std::string& origin) {
+Variation parse_variation(const std::string& text, const Setting& study) {
   const auto equals = text.find('=');
   const auto names = split(text.substr(0, equals), '&');
   if (equals == std::string::npos || names.empty())
@@ -85,7 +86,7 @@ Variation parse_variation(const std::string& text, const std::string& origin) {
                      std::to_string(names.size()) + " keys that vary together");
     variation.emplace_back();
     for (unsigned int k = 0; k < names.size(); ++k)
-      variation.back().push_back(parse_run_setting(names[k] + '=' + values[k], origin));
+      variation.back().push_back(parse_run_setting(names[k] + '=' + values[k], study));
   };
   for (const std::string& choice : split_unquoted(text.substr(equals + 1), '|'))
     if (names.size() > 1)
@@ -102,7 +103,7 @@ std::vector<Variation> parse_vary(const Setting& setting) {
   std::vector<Variation> vary;
   std::set<std::string> paths;
   for (const std::string& part : split_unquoted(setting.value, ';')) {
-    vary.push_back(parse_variation(part, setting.origin));
+    vary.push_back(parse_variation(part, setting));
     for (const Setting& varied : vary.back().front())
       if (!paths.insert(varied.path()).second)
         throw BadInput(varied.path() + " is varied twice");
@@ -115,29 +116,51 @@ std::vector<NamedScene> parse_scenes(const Setting& setting) {
   for (const std::string& part : split_unquoted(setting.value, ';')) {
     const auto colon = part.find(':');
     if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
-      throw BadInput("");
+      throw std::invalid_argument("");
     scenes.push_back({trimmed(part.substr(0, colon)), {}});
     for (const std::string& assignment : split_unquoted(part.substr(colon + 1), '&'))
-      scenes.back().settings.push_back(parse_run_setting(assignment, setting.origin));
+      scenes.back().settings.push_back(parse_run_setting(assignment, setting));
   }
   return scenes;
 }
 
 std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
-  const Patterns::Integer count(1);
   std::vector<std::optional<unsigned int>> counts;
-  for (const std::string& part : split(text, ','))
+  for (std::string& part : split(text, ','))
     counts.push_back(part == "-" ? std::nullopt
-                                 : std::optional(converted<unsigned int>(part, count)));
+                                 : std::optional(convert_number(part, {1, 1e9}, true)));
   return counts;
 }
 
 } // namespace
 
-void declare_study(Keys& keys, StudyOptions& study) {
-  keys.enter("Study", 0);
+void convert_runs(StudyOptions& study) {
+  // Distance and load replace each other.
+  const auto place = [](const Setting& setting) {
+    return setting.path() == "Road/Load" ? "Road/Distance" : setting.path();
+  };
+  std::set<std::string> varied;
+  Parameters scratch;
+  for (Variation& variation : study.vary)
+    for (auto& choice : variation)
+      for (Setting& setting : choice) {
+        apply(setting, scratch);
+        varied.insert(place(setting));
+      }
+  for (NamedScene& scene : study.scenes) {
+    std::set<std::string> paths;
+    for (Setting& setting : scene.settings) {
+      apply(setting, scratch);
+      if (!paths.insert(setting.path()).second || varied.count(place(setting)))
+        throw BadInput(refusal(setting, "the scene " + in_quotes(scene.name) +
+                                            " or Study/Vary gives the key another value"));
+    }
+  }
+}
+
+void declare_study(Section<StudyOptions> keys) {
   keys.declare(
-      "Vary", "", [&study](const Setting& setting) { study.vary = parse_vary(setting); },
+      "Vary", "", [](Setting& setting, Parameters& p) { p.study.vary = parse_vary(setting); },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
       "varies fastest. A value may be a range first : last : step, as in \"Road/Distance = 0.6 : "
@@ -145,25 +168,27 @@ void declare_study(Keys& keys, StudyOptions& study) {
       "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". Double quotes around a value protect the "
       "signs | & ; : in it. Keys of Study and Output cannot be varied, and each key at most once.");
   keys.declare(
-      "Scenes", "", [&study](const Setting& setting) { study.scenes = parse_scenes(setting); },
+      "Scenes", "", [](Setting& setting, Parameters& p) { p.study.scenes = parse_scenes(setting); },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
       "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
       "Mesh/Radial cells = 8\", where double quotes protect the signs & and ; in a value. Every "
       "scene is run with every combination of Vary.");
   keys.declare(
       "Published steps", "",
-      [&study](const Setting& setting) { study.published_steps = parse_counts(setting.value); },
+      [](Setting& setting, Parameters& p) {
+        p.study.published_steps = parse_counts(setting.value);
+      },
       "Published numbers of contact steps, which tables and plots show next to the computed ones: "
       "one for each run in the order of the runs, separated by commas, - where unknown.");
-  keys.add("True errors", study.true_errors, Patterns::Bool(),
+  keys.add("True errors", &StudyOptions::true_errors,
            "\"true\" or \"false\": compare every run of a study with the exact solution of its "
            "scene, where it is known. The runs then share no work, so that the seconds of each "
            "are complete.");
   keys.declare(
       "Files of each run", "",
-      [&study](const Setting& setting) {
+      [](Setting& setting, Parameters& p) {
         const std::string& text = setting.value;
-        study.files_of_each_run = text.empty() ? std::set<OutputFile>() : parse_files(text);
+        p.study.files_of_each_run = text.empty() ? std::set<OutputFile>() : parse_files(text);
       },
       "Files to write for each run of a study, any of those of Output/Files, into run-001, "
       "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "

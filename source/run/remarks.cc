@@ -107,12 +107,30 @@ std::string remark_on_displacement(const Scene& scene, const Result& result) {
   double largest = 0;
   for (const SurfacePoint& point : result.surface)
     largest = std::max(largest, std::abs(point.displacement));
-  constexpr double most = 0.75; // of the thickness; the paper's scenes have up to a half
+  constexpr double most = 0.25; // of the thickness; the paper's scenes have up to a half
   const double share = largest / (scene.outer_radius - scene.inner_radius);
-  if (!(share > most))
+  if (!(share >= most))
     return {};
   return "the displacement is " + rounded(100 * share, 2) +
-         " % of the ring's thickness; the linear model is meant for small ones";
+         " % of the ring's thickness, which stretches the linear model: it is meant for small ones";
+}
+
+/// On a speed above the critical one that is taken as the critical one, other than by round-off.
+std::string remark_on_speed(const RunOptions& options) {
+  const double omega = options.cylinder.angular_velocity,
+               critical = critical_speed(options.cylinder, options.material);
+  const std::string given = rounded(omega, 12), taken = rounded(critical, 12);
+  return omega > critical && given != taken
+             ? "the angular velocity " + given + " is taken as the critical speed " + taken
+             : "";
+}
+
+/// On a drum that may be the radius in the place of the curvature.
+std::string remark_on_curvature(const Scene& scene) {
+  if (!(scene.road.curvature * scene.outer_radius > 10))
+    return {};
+  return "the drum's radius is " + rounded(scene.units.length / scene.road.curvature, 3) +
+         ", less than a tenth of the cylinder's; Road/Curvature is one over the radius";
 }
 
 } // namespace
@@ -124,7 +142,8 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
   for (const std::string& remark :
        {remark_on_zone_ends(scene, result), remark_on_depth_outside(scene, result),
         remark_on_certificate(options, result), remark_on_force(result),
-        remark_on_resolution(solution, result), remark_on_displacement(scene, result)})
+        remark_on_resolution(solution, result), remark_on_displacement(scene, result),
+        remark_on_speed(options), remark_on_curvature(scene)})
     if (!remark.empty())
       remarks.push_back(remark);
   return remarks;

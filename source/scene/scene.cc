@@ -1,7 +1,8 @@
 #include "rollwave/scene/scene.h"
 
 #include "rollwave/base/errors.h"
-#include "rollwave/scene/force_expression.h"
+#include "rollwave/base/text.h"
+#include "rollwave/scene/expression.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/uniform_force.h"
 #include "rollwave/scene/units.h"
@@ -10,8 +11,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace rollwave {
@@ -28,6 +32,17 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
+/// True if a user who has read @p exact on the screen, or has computed it, may have written
+/// @p number: it is rounded to six digits or more.
+bool is_rounding_of(double number, double exact) {
+  if (std::abs(number - exact) <= 4 * std::numeric_limits<double>::epsilon() * exact)
+    return true;
+  for (int digits = 6; digits <= std::numeric_limits<double>::digits10; ++digits)
+    if (to_number(rounded(exact, digits)) == number)
+      return true;
+  return false;
+}
+
 /// Refuses radii and a speed for which the problem is not posed, or not elliptic.
 void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& material) {
   const auto refuse = [&](const std::string& key, const std::string& wanted) {
@@ -41,9 +56,8 @@ void check_cylinder(const CylinderOptions& cylinder, const MaterialOptions& mate
   if (cylinder.inner_radius < least_ratio * cylinder.outer_radius)
     refuse("Inner radius", text("it must be at least ", least_ratio, " of the outer radius"));
 
-  // The user may have rounded the critical speed in its last decimal digit.
-  const double critical = material.wave_speed() / cylinder.outer_radius;
-  if (cylinder.angular_velocity > critical * (1 + 4 * std::numeric_limits<double>::epsilon()))
+  const double critical = critical_speed(cylinder, material);
+  if (cylinder.angular_velocity > critical && !is_rounding_of(cylinder.angular_velocity, critical))
     refuse("Angular velocity",
            text("it must be at most the critical speed (mu/rho)^(1/2)/b = ", critical,
                 ", beyond which the problem is not elliptic",
@@ -102,23 +116,39 @@ double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   return std::min({numbers::PI, road.crossing_angle(b), road.crossing_angle(limit) + margin});
 }
 
+/// f as a function of r and z in the user's units. @throws BadValue
+std::function<double(double r, double z)> parse_force(const CylinderOptions& cylinder) {
+  try {
+    return parse_function(cylinder.radial_force,
+                          (cylinder.inner_radius + cylinder.outer_radius) / 2);
+  } catch (const std::invalid_argument& error) {
+    throw BadValue(
+        "Cylinder", "Radial force",
+        text("it must be a finite expression in r and z, as in 1 + 0.5*r*cos(z). ", error.what()));
+  }
+}
+
 BodyForce make_force(const CylinderOptions& cylinder, const Units& units) {
   const double density = units.of(Quantity::force_density);
-  const double middle = (cylinder.inner_radius + cylinder.outer_radius) / 2;
   BodyForce force;
   force.text = text(cylinder.radial_force, " over ", units.material.shear_modulus);
-  const std::optional<double> constant = constant_force(cylinder.radial_force);
-  if (!constant)
-    force.density = [unit = units.length, density, f = parse_force(cylinder.radial_force, middle)](
-                        double r, double z) { return f(unit * r, z) / density; };
-  else if (*constant != 0) { // for 0 no load is ever assembled
-    force.uniform = *constant / density;
+  const std::optional<double> uniform = value_if_any(cylinder.radial_force);
+  if (!uniform)
+    force.density = [unit = units.length, density, f = parse_force(cylinder)](double r, double z) {
+      return f(unit * r, z) / density;
+    };
+  else if (*uniform != 0) { // for 0 no load is ever assembled
+    force.uniform = *uniform / density;
     force.density = [f = *force.uniform](double, double) { return f; };
   }
   return force;
 }
 
 } // namespace
+
+double critical_speed(const CylinderOptions& cylinder, const MaterialOptions& material) {
+  return material.wave_speed() / cylinder.outer_radius;
+}
 
 std::string force_not_finite_at(const Scene& scene, double r, double z) {
   std::ostringstream text;
@@ -145,7 +175,7 @@ Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.units = {unit, material};
   scene.inner_radius = a / unit;
   scene.outer_radius = b / unit;
-  // Takes off the round-off above 1/b that check_cylinder() tolerates, so that alpha(b) >= 0.
+  // Takes off what check_cylinder() tolerates above 1/b, so that alpha(b) >= 0.
   scene.angular_velocity =
       std::min(cylinder.angular_velocity / scene.units.of(Quantity::angular_velocity),
                1 / scene.outer_radius);

@@ -5,8 +5,9 @@
 namespace rollwave {
 
 /// From here on the first SIGINT (Ctrl-C), SIGTERM, SIGUSR1 or SIGUSR2 sets a flag; the same signal
-/// once more ends the program at once. A write to a closed pipe, or beyond the limit of file sizes
-/// (ulimit -f), then fails as an error of the stream instead of ending the program.
+/// once more ends the program at once. Those that the parent process ignores stay ignored. A write
+/// to a closed pipe, or beyond the limit of file sizes (ulimit -f), then fails as an error of the
+/// stream instead of ending the program.
 /// @param reports true to print a message on the standard error when the flag is set
 void install_signal_handlers(bool reports = true);
 

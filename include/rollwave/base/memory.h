@@ -13,13 +13,10 @@ namespace rollwave {
 void require_memory(double bytes, const std::string& purpose,
                     MPI_Comm communicator = MPI_COMM_SELF);
 
-/// OpenBLAS reserves 128 MiB of address space for each thread when the program is loaded, and waits
-/// for ever if there is no room. If the address space is limited (ulimit -v), this function starts
-/// the program again with one thread, unless OPENBLAS_NUM_THREADS or OMP_NUM_THREADS is set. It
-/// then makes OpenBLAS take its buffer before other memory is used.
-/// @param argv of main()
+/// Makes OpenBLAS take its buffer of 128 MiB before other memory is used if the address space is
+/// limited (ulimit -v), since OpenBLAS waits for ever where there is no room later.
 /// @return false if the buffer does not fit
-bool fit_blas_into_address_space(char** argv);
+bool take_blas_buffer();
 
 /// The largest amount of memory that this process has held so far, in MiB.
 double peak_memory_mib();

@@ -16,6 +16,9 @@ std::string printable(const std::string& text, std::size_t longest = 150);
 /// printable(text) in quotation marks.
 std::string in_quotes(const std::string& text);
 
+/// A remark on letters of @p text that are not seen; empty without any.
+std::string hint_on_letters(const std::string& text);
+
 /// @p text without white space at both ends.
 std::string trimmed(const std::string& text);
 

@@ -3,16 +3,22 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/scene/units.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// A value given to a key. The origin is the file with the line, or the option of the command line.
+struct Parameters;
+
+/// A value given to a key, as text.
 struct Setting {
-  std::string section, key, value, origin;
+  std::string section, key, value;
+  std::string origin;    ///< the file, or the option of the command line
+  unsigned int line = 0; ///< of the file; 0 elsewhere
 
   std::string path() const { return section + '/' + key; }
+  std::string place() const { return origin + (line > 0 ? ", line " + std::to_string(line) : ""); }
 };
 
 /// The assignment in "Section/Key=value"; without a slash its section is empty.
@@ -23,6 +29,7 @@ Setting parse_setting(const std::string& text, const std::string& origin);
 const Setting* last_of(const std::vector<Setting>& settings, const std::string& path);
 
 /// The message on a refused value: origin, section, key, value and reason.
+std::string refusal(const Setting& setting, const std::string& reason);
 std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
 
 /// The parts of a run that depend on a key; a key may have several of these flags.
@@ -45,9 +52,24 @@ struct KeyAttributes {
 
 /// A key of parameter files.
 struct Key : KeyAttributes {
+  /// Gives the value of a setting to its member of the parameters, and puts a number in the place
+  /// of an expression. Throws std::invalid_argument for a value that the text does not allow,
+  /// BadInput with the reason for others.
+  using Convert = std::function<void(Setting& setting, Parameters& parameters)>;
+
   std::string section, name, default_value, text;
+  Convert convert;
 
   std::string path() const { return section + '/' + name; }
 };
+
+/// Every key, in the order of `rollwave --parameters`.
+const std::vector<Key>& all_keys();
+
+/// The key of a setting. @throws BadInput with the nearest keys where there is none
+const Key& key_of(const Setting& setting);
+
+/// The value of a key: the last of @p settings, or the default.
+std::string value_of(const Key& key, const std::vector<Setting>& settings);
 
 } // namespace rollwave

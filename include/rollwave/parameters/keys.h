@@ -1,114 +1,108 @@
 #pragma once
 
 #include "rollwave/parameters/key.h"
+#include "rollwave/parameters/parameters.h"
 
-#include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/patterns.h>
-
-#include <functional>
-#include <iosfwd>
 #include <map>
-#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace rollwave {
 
-/// @p text as a value. @throws BadInput without a reason if it does not match @p pattern.
-template <typename T>
-T converted(const std::string& text, const dealii::Patterns::PatternBase& pattern) {
-  if (!pattern.match(text))
-    throw BadInput("");
-  return dealii::Patterns::Tools::Convert<T>::to_value(text, pattern);
-}
+/// Gives a value to its key and adds it to the settings of @p parameters. The setting may be a
+/// number where the user has given an expression. @throws BadInput
+void apply(Setting& setting, Parameters& parameters);
 
-/**
- * The keys of parameter files, each bound to a variable whose value is the default. deal.II's
- * ParameterHandler reads and prints them, its patterns check them. A refusal is a message of one
- * line with origin, section, key, value and what is expected.
- */
-class Keys {
+/// @throws BadInput with the nearest sections where there is none of this name
+void check_section(const std::string& name, const std::string& place);
+
+/// The numbers that a key allows.
+struct Range {
+  double least, most;
+};
+
+/// The shortest text that is read back as @p number; whole numbers have no exponent up to 1e15.
+std::string number_text(double number);
+
+/// The number or arithmetic expression in @p text, which becomes the number.
+/// @throws std::invalid_argument for others, also outside of @p range or if it must be whole
+double convert_number(std::string& text, const Range& range, bool is_whole = false);
+
+/// A section of parameter files, whose keys are bound to the members of its owner's options. The
+/// default of a key is that of its member.
+template <typename Options>
+class Section {
 public:
-  /// Sets the variable of a key. Throws BadInput for other texts; without a reason the message
-  /// shows the text of the key.
-  using Parse = std::function<void(const Setting& setting)>;
+  /// @param keys to which those of the section are added
+  /// @param affects flags of Affects that all of them have
+  Section(std::vector<Key>& keys, const std::string& name, Options Parameters::*options,
+          unsigned int affects = 0)
+      : keys(keys), name(name), options(options), affects(affects) {}
 
-  /// @param settings to which every value given to a key is appended
-  explicit Keys(std::vector<Setting>& settings) : settings(settings) {}
-  Keys(const Keys&) = delete;
-  Keys& operator=(const Keys&) = delete;
-
-  /// Begins a section. @param affects flags of Affects that all its keys have
-  void enter(const std::string& name, unsigned int affects);
-
-  /// A key whose value deal.II converts.
-  template <typename T>
-  void add(const std::string& name, T& variable, const dealii::Patterns::PatternBase& pattern,
-           const std::string& text, const KeyAttributes& attributes = {}) {
-    const auto own = std::shared_ptr(pattern.clone());
-    declare(
-        name, dealii::Patterns::Tools::Convert<T>::to_string(variable, pattern),
-        [&variable, own](const Setting& setting) { variable = converted<T>(setting.value, *own); },
-        text, attributes);
-  }
-
-  /// A key with a value or, as its default, a word that stands for none.
-  template <typename T>
-  void add(const std::string& name, std::optional<T>& variable, const std::string& word,
-           const dealii::Patterns::PatternBase& pattern, const std::string& text,
+  /// A number; it must be whole if its type is.
+  template <typename T, typename Owner>
+  void add(const std::string& key, T Owner::*member, const Range& range, const std::string& text,
            const KeyAttributes& attributes = {}) {
-    const auto own = std::shared_ptr(pattern.clone());
-    const auto parse = [&variable, own, word](const Setting& setting) {
-      variable =
-          setting.value == word ? std::nullopt : std::optional(converted<T>(setting.value, *own));
+    const auto convert = [options = options, member, range](Setting& setting, Parameters& p) {
+      (p.*options).*member = convert_number(setting.value, range, std::is_integral_v<T>);
     };
-    declare(name, word, parse, text, attributes);
+    declare(key, number_text(Options().*member), convert, text, attributes);
   }
 
-  /// A key whose value is one of several names.
-  template <typename Choice>
-  void add_choice(const std::string& name, Choice& variable,
+  /// A number or, as its default, a word that stands for none.
+  template <typename T, typename Owner>
+  void add(const std::string& key, std::optional<T> Owner::*member, const std::string& word,
+           const Range& range, const std::string& text, const KeyAttributes& attributes = {}) {
+    const auto convert = [options = options, member, word, range](Setting& setting, Parameters& p) {
+      auto& value = (p.*options).*member;
+      value.reset();
+      if (setting.value != word)
+        value = convert_number(setting.value, range, std::is_integral_v<T>);
+    };
+    declare(key, word, convert, text, attributes);
+  }
+
+  /// "true" or "false".
+  template <typename Owner>
+  void add(const std::string& key, bool Owner::*member, const std::string& text,
+           const KeyAttributes& attributes = {}) {
+    add_choice(key, member, {{"true", true}, {"false", false}}, text, attributes);
+  }
+
+  /// One of several names.
+  template <typename Choice, typename Owner>
+  void add_choice(const std::string& key, Choice Owner::*member,
                   const std::map<std::string, Choice>& choices, const std::string& text,
                   const KeyAttributes& attributes = {}) {
     std::string default_name;
     for (const auto& [known, choice] : choices)
-      if (choice == variable)
+      if (choice == Options().*member)
         default_name = known;
-    const auto parse = [&variable, choices](const Setting& setting) {
-      if (choices.count(setting.value) == 0)
-        throw BadInput("");
-      variable = choices.at(setting.value);
+    const auto convert = [options = options, member, choices](Setting& setting, Parameters& p) {
+      const auto choice = choices.find(setting.value);
+      if (choice == choices.end())
+        throw std::invalid_argument("");
+      (p.*options).*member = choice->second;
     };
-    declare(name, default_name, parse, text, attributes);
+    declare(key, default_name, convert, text, attributes);
   }
 
-  /// A key whose value @p parse takes.
-  void declare(const std::string& name, const std::string& default_value, const Parse& parse,
-               const std::string& text, const KeyAttributes& attributes = {});
-
-  /// Gives the values in the text of a parameter file to their keys. @throws BadInput
-  void read(const std::string& text, const std::string& file);
-
-  /// Gives a value to its key. @throws BadInput
-  void set(const Setting& setting);
-
-  /// A complete commented parameter file.
-  void print(std::ostream& out) const;
-
-  /// In the order of their declaration.
-  const std::vector<Key>& all() const { return keys; }
+  /// A key whose value @p convert takes.
+  void declare(const std::string& key, const std::string& default_value,
+               const Key::Convert& convert, const std::string& text,
+               const KeyAttributes& attributes = {}) {
+    keys.push_back({attributes, name, key, default_value, text, convert});
+    keys.back().affects |= affects;
+  }
 
 private:
-  const Key& at(const Setting& setting) const;
-  std::string nearest(const std::string& section, const std::string& name) const;
-
-  std::vector<Setting>& settings;
-  std::string section;
-  unsigned int affected = 0;           ///< by the keys of the section
-  std::function<std::string()> origin; ///< of the value that is being read; empty for defaults
-  std::vector<Key> keys;
-  dealii::ParameterHandler prm;
+  std::vector<Key>& keys;
+  const std::string name;
+  Options Parameters::*options;
+  const unsigned int affects;
 };
 
 } // namespace rollwave

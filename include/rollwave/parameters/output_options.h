@@ -1,13 +1,12 @@
 #pragma once
 
-#include "rollwave/scene/units.h"
-
 #include <set>
 #include <string>
 
 namespace rollwave {
 
-class Keys;
+template <typename Options>
+class Section;
 
 enum class OutputFile { summary, contact, parameters, solution, surface, plot };
 
@@ -17,14 +16,15 @@ enum class CellKind { high_order, linear };
 /// Section `Output`.
 struct OutputOptions {
   std::string directory = "output";
-  std::set<OutputFile> files;
+  std::set<OutputFile> files = {OutputFile::summary,  OutputFile::contact, OutputFile::parameters,
+                                OutputFile::solution, OutputFile::surface, OutputFile::plot};
   CellKind cells = CellKind::high_order;
 };
 
-/// The kinds in a list, always with `parameters`. @throws BadInput for an unknown one
+/// The kinds in a list, always with `parameters`. @throws std::invalid_argument for an unknown one
 std::set<OutputFile> parse_files(const std::string& text);
 
 /// The keys of the section.
-void declare_output(Keys& keys, OutputOptions& output, UnitNames& names);
+void declare_output(Section<OutputOptions> keys);
 
 } // namespace rollwave

@@ -26,24 +26,17 @@ struct Parameters : RunOptions {
 
   std::filesystem::path file; ///< that was read; never written over
 
-  /// The values given to keys; later ones override earlier ones.
+  /// The values given to keys, with numbers in the place of expressions; later ones override
+  /// earlier ones.
   std::vector<Setting> settings;
 
   bool wants(OutputFile kind) const { return output.files.count(kind) > 0; }
 };
 
-/// Every key, in the order of `rollwave --parameters`.
-const std::vector<Key>& all_keys();
-
-/// The key of a setting that read_parameters() has accepted.
-const Key& key_of(const Setting& setting);
-
-/// The value of a key: the last of @p settings, or the default.
-std::string value_of(const Key& key, const std::vector<Setting>& settings);
-
-/// The settings in the text of a parameter file. @p name is that of the file in messages.
-/// @throws BadInput for an unknown section or key, a value that its key does not accept, a line of
-///         another form, a key that is set twice, both a distance and a load, or an open section
+/// The settings in the text of a parameter file, whose form is that of deal.II's ParameterHandler
+/// without "include". @p name is that of the file in messages.
+/// @throws BadInput for a line of another form, an unknown section, a key that is set twice, or a
+///         section without its end
 std::vector<Setting> parse_settings(const std::string& text, const std::string& name);
 
 /// The same of the file at a path, which rank 0 reads for all: a pipe gives its text once.
@@ -53,11 +46,11 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
 
 /**
  * The parameters with these settings; the other keys keep their defaults. The later one of
- * `Road/Distance` and `Road/Load` replaces the other,
- * unless both have the same origin, such as the command line.
+ * `Road/Distance` and `Road/Load` replaces the other.
  *
- * @throws BadInput for an unknown section or key, or a value that its key does not accept.
- * Conditions between several keys are checked by make_scene().
+ * @throws BadInput for an unknown section or key, a value that its key does not accept, a distance
+ * and a load of the same origin, such as the command line, or a key that a scene of a study sets
+ * twice or that varies as well. Other conditions between keys are checked by make_scene().
  */
 Parameters read_parameters(const std::vector<Setting>& settings);
 

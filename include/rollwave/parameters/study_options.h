@@ -10,7 +10,8 @@
 
 namespace rollwave {
 
-class Keys;
+template <typename Options>
+class Section;
 
 /// A scene of a study by its name, with the settings that make it.
 struct NamedScene {
@@ -36,6 +37,11 @@ struct StudyOptions {
 };
 
 /// The keys of the section.
-void declare_study(Keys& keys, StudyOptions& study);
+void declare_study(Section<StudyOptions> keys);
+
+/// Puts numbers in the place of expressions in the settings of all runs.
+/// @throws BadInput for one that its key does not accept, or a key that a scene sets twice or that
+///         varies as well
+void convert_runs(StudyOptions& study);
 
 } // namespace rollwave

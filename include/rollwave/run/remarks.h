@@ -11,7 +11,8 @@ namespace rollwave {
 
 /// Notes for a reader of the numbers: that contact ends with the zone, that the
 /// surface lies within the road outside of it, that the relative bound is 1 or more, that the
-/// mesh does not resolve the contact, or that displacements exceed the thickness of the ring.
+/// mesh does not resolve the contact, that displacements exceed a quarter of the ring's thickness,
+/// that a speed was rounded above the critical one, or that a drum is thin.
 std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
                                     const Result& result);
 

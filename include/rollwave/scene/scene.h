@@ -105,6 +105,9 @@ struct Scene {
   double alpha(double r) const { return (1 / r - angular_velocity) * (1 / r + angular_velocity); }
 };
 
+/// The critical speed (mu/rho)^(1/2)/b in the user's units.
+double critical_speed(const CylinderOptions& cylinder, const MaterialOptions& material);
+
 /// The refusal of a force that is not finite at a point, r in the scene's units.
 std::string force_not_finite_at(const Scene& scene, double r, double z);
 
@@ -115,6 +118,8 @@ Scene with_distance(Scene scene, double c);
  * The scene that options describe.
  *
  * @param angular_cells of the first mesh, for the margin of an automatic zone
+ * A speed that is the critical one rounded to six digits or more is taken as the critical one.
+ *
  * @throws BadValue unless 1e-150 b <= a < b, 0 <= omega <= critical speed, a < c, c < 2 b with an
  * automatic zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the
  * force can be parsed and is finite.
