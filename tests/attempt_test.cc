@@ -42,8 +42,8 @@ Result without_certificate(const std::vector<std::string>& settings) {
 }
 
 TEST(Attempt, FailingCertificateLeavesTheSolution) {
-  for (const std::string setting : {"Certificate/Error bound=true", "Certificate/Load bounds=true",
-                                    "Mesh/Wanted relative error=1e-3"}) {
+  for (const std::string setting :
+       {"Certificate/Error bound=true", "Mesh/Wanted relative error=1e-3"}) {
     const Result result =
         without_certificate({setting, "Mesh/Indicator=kelly", "Mesh/Most unknowns=30000"});
     EXPECT_EQ(result.shortfalls.size(), 1u) << setting;

@@ -176,17 +176,6 @@ TEST(Drum, PressedInUpToItsTangentHasNoWorkConjugateLoad) {
   EXPECT_NEAR(resolved.contact.loads.work_conjugate / 0.2, 1, 1e-9);
 }
 
-TEST(Load, DistanceIsEnclosed) {
-  const auto exact = *find_exact_solution(make_scene(parameters_of({})));
-  const Solution solution = solve_for(
-      {"Road/Load=" + shortest_text(exact.loads.work_conjugate), "Road/Load kind=work-conjugate",
-       "Certificate/Load bounds=true", "Mesh/Wanted relative error=1e-3"});
-  ASSERT_TRUE(solution.result.distance_bounds);
-  EXPECT_LE(solution.result.distance_bounds->lower, 0.8);
-  EXPECT_GE(solution.result.distance_bounds->upper, 0.8);
-  EXPECT_LT(solution.result.distance_bounds->upper - solution.result.distance_bounds->lower, 1e-2);
-}
-
 TEST(Patches, AreReportedSeparately) {
   const Solution solution = solve_for({"Cylinder/Radial force=-8*exp(-((z-4.71238898)/0.12)^2)",
                                        "Mesh/Radial cells=6", "Mesh/Angular cells=180"});

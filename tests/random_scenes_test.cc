@@ -152,11 +152,11 @@ TEST(RandomScenes, AreSolvedAndVerifiedOrRefusedAndExplained) {
       const Result& result = solution.result;
       if (!result.shortfalls.empty()) {
         ++counts.short_of_accuracy;
-        EXPECT_GT(result.residuals.largest(), wanted_residual);
+        EXPECT_GT(result.residuals.largest(), result.residuals.allowed);
         EXPECT_LT(result.residuals.largest(), 1e-6);
       } else {
         ++counts.solved;
-        EXPECT_LE(result.residuals.largest(), wanted_residual);
+        EXPECT_LE(result.residuals.largest(), result.residuals.allowed);
       }
       EXPECT_LE(result.certified->lower_bound, result.certified->upper_bound);
       if (i % 12 == 0)

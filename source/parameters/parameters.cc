@@ -139,14 +139,11 @@ void declare_mesh(Keys& keys, Parameters& p) {
 
 void declare_certificate(Keys& keys, CertificateOptions& certificate) {
   keys.enter("Certificate", 0);
-  keys.add("Error bound", certificate.error_bound, Patterns::Bool(),
-           "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
-           "with bounds of the energy from both sides; costs at most about another linear solve.");
   keys.add(
-      "Load bounds", certificate.load_bounds, Patterns::Bool(),
-      "\"true\" or \"false\": bound the work-conjugate load G, or the distance if G is given, "
-      "from both sides, by the certified energies of further road distances; costs two or more "
-      "scenes on the last mesh.");
+      "Error bound", certificate.error_bound, Patterns::Bool(),
+      "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
+      "with guaranteed intervals of the energy, the contact force and the vertical load; costs "
+      "at most about another linear solve.");
 }
 
 void declare_contact(Keys& keys, ContactOptions& contact) {

@@ -12,9 +12,6 @@ namespace {
 void check_certificate(const RunOptions& options) {
   if (options.certificate.error_bound)
     return;
-  if (options.certificate.load_bounds)
-    throw BadValue("Certificate", "Load bounds",
-                   "they need the error bound; set Certificate/Error bound = true");
   if (options.mesh.wanted_relative_error > 0)
     throw BadValue("Mesh", "Wanted relative error",
                    "the target needs the error bound; set Certificate/Error bound = true");
@@ -38,7 +35,7 @@ RunOptions coarser(RunOptions options) {
     }
   mesh.adaptive_cycles = 0;
   mesh.wanted_relative_error = 0;
-  options.certificate = {/*error_bound=*/false, /*load_bounds=*/false};
+  options.certificate.error_bound = false;
   return options;
 }
 

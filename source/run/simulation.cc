@@ -7,7 +7,6 @@
 #include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
-#include "rollwave/run/load_bounds.h"
 #include "rollwave/run/measure.h"
 #include "rollwave/run/remarks.h"
 #include "rollwave/run/solve_on_mesh.h"
@@ -102,26 +101,6 @@ std::string interrupted_text(unsigned int n_meshes) {
   return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
 }
 
-/// Bounds the work-conjugate load or, where that is given, the distance.
-void add_load_bounds(const RunOptions& options, Discretisation& mesh, const MeshSolution& solution,
-                     const CertifiedError& error, RunStatistics& statistics, Result& result) {
-  const auto& load = solution.scene.load;
-  if (solution.scene.road.is_convex())
-    result.remarks.push_back("the load has no bounds on a convex road, Road/Curvature > 0, whose "
-                             "least energy need not be convex in the distance");
-  else if (!load)
-    result.load_bounds = bound_load(options, mesh, solution, error, statistics);
-  else if (load->kind == LoadKind::work_conjugate) {
-    result.distance_bounds = bound_distance(options, mesh, solution, error, statistics);
-    if (!result.distance_bounds)
-      result.remarks.push_back("the distance has no bounds: those of the energy are too wide on "
-                               "this mesh; refine it");
-  } else
-    result.remarks.push_back(
-        "there are no bounds of G or c for a given vertical or total load; give "
-        "Road/Distance for bounds of G, or Road/Load kind = work-conjugate");
-}
-
 /// Adds the targets that were not reached, and the remarks.
 void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation& mesh,
                                 const MeshSolution& solution,
@@ -131,7 +110,7 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Discretisation&
       !is_load_beyond_meshes(solution, result.cycles.size()))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
-  else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
+  else if (result.shortfalls.empty() && result.residuals.largest() > result.residuals.allowed &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
   for (const std::string& remark : remarks_on(options, solution, result))
@@ -148,11 +127,6 @@ Solution finish(const RunOptions& options, Discretisation mesh, MeshSolution las
   if (certificate)
     result.certified = certificate->error;
   add_shortfalls_and_remarks(options, mesh, last, certificate, result);
-  if (options.certificate.load_bounds && certificate && !is_interrupted)
-    attempt([&] { add_load_bounds(options, mesh, last, certificate->error, statistics, result); },
-            "the bounds of the load or distance could not be computed",
-            "use fewer unknowns, or set Certificate/Load bounds to false", mesh.communicator(),
-            result.shortfalls);
   if (!mesh.is_shared)
     mesh.cache = {};
   result.statistics = std::move(statistics);
@@ -168,7 +142,7 @@ Solution solve_and_refine(Discretisation mesh, Scene scene, const RunOptions& op
   for (;;) {
     MeshSolution solution = solve_on_mesh(scene, options, mesh.candidates, pressure, mesh.cache,
                                           statistics, progress.contact_step_ended);
-    if (!mesh.is_shared && !options.certificate.load_bounds)
+    if (!mesh.is_shared)
       mesh.cache.stiffness.solver.reset(); // the certificate needs its memory
     std::optional<Certificate> certificate = certify_solution(options, mesh, solution, statistics);
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
