@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace rollwave;
 
@@ -47,8 +48,21 @@ TEST(Marking, TakesTheFewestCellsThatHoldTheShare) {
   EXPECT_EQ(Ring(row_of_eight).cut(falling, 64 / 204. + 1e-6), 2u);
   EXPECT_EQ(Ring(row_of_eight).cut(falling, 113 / 204. - 1e-6), 2u);
   EXPECT_EQ(Ring(row_of_eight).cut(falling, 113 / 204. + 1e-6), 3u);
-  EXPECT_EQ(Ring(row_of_eight).cut(falling, 1), 8u);
+  EXPECT_EQ(Ring(row_of_eight).cut(falling, 1), 7u);
   EXPECT_EQ(Ring(row_of_eight).cut(std::vector<double>(8), 0.6), 0u);
+}
+
+TEST(Marking, LeavesOutCellsFarBelowTheLargest) {
+  EXPECT_EQ(Ring(row_of_eight).cut({1, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05}, 1), 1u);
+  EXPECT_EQ(Ring(row_of_eight).cut({1, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3}, 1), 8u);
+}
+
+TEST(Marking, CutsAShareOfManyCells) {
+  std::vector<double> indicators(200);
+  for (unsigned int cell = 0; cell < 200; ++cell)
+    indicators[cell] = std::pow(0.3, cell);
+  Ring ring({"Mesh/Radial cells=1", "Mesh/Angular cells=200"});
+  EXPECT_EQ(ring.cut(indicators, 0.5), 3u);
 }
 
 TEST(Marking, DoesNotDependOnTheUnitOfTheIndicators) {

@@ -116,7 +116,7 @@ TEST_F(Processes, RefineAThickRingWithAnUnevenForceLikeOne) {
 
 TEST_F(Processes, FindALoadInADrumLikeOne) {
   expect_answer_of_one(scene + " --set Road/Curvature=-0.5 --set Road/Load=0.2 --set 'Road/Load "
-                               "kind=total' --set 'Certificate/Load bounds=true'",
+                               "kind=total'",
                        {3});
 }
 

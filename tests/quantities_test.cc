@@ -30,7 +30,6 @@ std::vector<NamedScene> scenes() {
       {"cut zone", {"Road/Contact zone=4.5, 4.9", "Mesh/Degree=1"}},
       {"vertical load", {"Road/Load=0.25", "Mesh/Degree=3"}},
       {"total load", {"Road/Load=0.25", "Road/Load kind=total"}},
-      {"bounds of the load", {"Certificate/Load bounds=true"}},
       {"units",
        {"Material/Density=1.1e-9", "Material/Width=200", "Cylinder/Inner radius=17.5",
         "Cylinder/Outer radius=35", "Cylinder/Angular velocity=86", "Road/Load=800"}},

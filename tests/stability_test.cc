@@ -121,6 +121,32 @@ TEST(Stability, RingsOfAnyThicknessHaveTheirExactAnswer) {
   }
 }
 
+// Until the mesh resolves the contact of such a drum, each ring of cells around it has as large a
+// part of the error as the next one. All of them need one cut, the innermost one further ones.
+TEST(Stability, ContactInAPointTakesFewUnknowns) {
+  const Parameters parameters = parameters_of(
+      {"Road/Curvature=1e6", "Road/Distance=0.9", "Mesh/Radial cells=2", "Mesh/Angular cells=24",
+       "Mesh/Wanted relative error=0.05", "Mesh/Most unknowns=100000"});
+  const Result result = simulate(make_scene(parameters), parameters).result;
+  EXPECT_TRUE(result.shortfalls.empty()) << shortfall_text(result);
+  EXPECT_LT(result.mesh.n_unknowns, 20000u);
+}
+
+// The cells of a zone narrower than they are high stay so when they are cut in four. They need as
+// many columns as cuts make them as low as the zone is narrow, and rounding in K u allows no
+// residual of 1e-10.
+TEST(Stability, ShortZonesReachTheirTargetInFewMeshes) {
+  for (const char* end : {"4.702", "4.7001"}) {
+    const Parameters parameters =
+        parameters_of({std::string("Road/Contact zone=4.7, ") + end, "Mesh/Radial cells=20",
+                       "Mesh/Angular cells=240", "Mesh/Wanted relative error=0.003"});
+    const Result result = simulate(make_scene(parameters), parameters).result;
+    EXPECT_TRUE(result.shortfalls.empty()) << shortfall_text(result);
+    EXPECT_LT(result.cycles.size(), 40u);
+    EXPECT_LT(result.mesh.n_unknowns, 100000u);
+  }
+}
+
 // A cell is cut at most once in a cycle, also if nearly all cells are marked.
 TEST(Stability, NoCycleMoreThanQuadruplesTheCells) {
   for (const char* marking : {"Mesh/Marking=bulk", "Mesh/Marking=all"})

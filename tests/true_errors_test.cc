@@ -106,6 +106,28 @@ TEST(AdaptiveOrder, IsTheDegreeWhateverTheEnds) {
   }
 }
 
+// Cells that are cut in four are too short along z near the surface: l^(-1/3) of them next to an
+// end of cells of the size l, which leaves the error l^(1/2).
+TEST(AdaptiveOrder, IsThreeAtMostAtCutEndsAtTheCriticalSpeed) {
+  const Parameters parameters =
+      parameters_of({"Cylinder/Angular velocity=1",
+                     "Road/Contact zone=4.450589592585541, 4.974188368183839", "Mesh/Degree=4",
+                     "Mesh/Radial cells=2", "Mesh/Angular cells=24", "Mesh/Adaptive cycles=1000"});
+  const auto exact = find_exact_solution(make_scene(parameters));
+  ASSERT_TRUE(exact);
+  double errors[2], unknowns[2];
+  for (const int i : {0, 1}) {
+    const Parameters own =
+        with(parameters, {i == 0 ? "Mesh/Most unknowns=6000" : "Mesh/Most unknowns=50000"});
+    const Solution solution = simulate(make_scene(own), own);
+    const TrueErrors found = measure_true_errors(solution, *exact);
+    EXPECT_EQ(found.expected_order, 3);
+    errors[i] = found.energy_norm;
+    unknowns[i] = solution.result.mesh.n_unknowns;
+  }
+  EXPECT_NEAR(2 * std::log(errors[0] / errors[1]) / std::log(unknowns[1] / unknowns[0]), 3, 0.4);
+}
+
 TEST(TrueErrors, OfTheEnergyNormAreThoseOfTheGradient) {
   // The identity against quadrature of the gradient of u - u_h, u from its modes, on a mesh so
   // coarse that the modes left out do not matter.

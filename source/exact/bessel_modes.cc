@@ -67,15 +67,19 @@ struct SpectralIntegration {
     }
     // The Lagrange polynomial of point j is weight_j sum_m (m + 1/2) P_m(x_j) P_m, and
     // (2 m + 1) int_x^1 P_m = P_(m-1)(x) - P_(m+1)(x), with P_(-1) = 1.
-    const auto legendre = [](int m, double x) {
-      return m < 0 ? 1. : boost::math::legendre_p(m, x);
-    };
+    std::vector<AtPoints> legendre(n_gauss + 2, AtPoints(n_gauss, 1)); // number m + 1 is P_m
+    for (int i = 0; i < n_gauss; ++i) {
+      legendre[2][i] = point[i];
+      for (int m = 1; m < n_gauss; ++m)
+        legendre[m + 2][i] =
+            boost::math::legendre_next(m, point[i], legendre[m + 1][i], legendre[m][i]);
+    }
     to_the_right.assign(n_gauss, AtPoints(n_gauss));
     for (int i = 0; i < n_gauss; ++i)
       for (int j = 0; j < n_gauss; ++j) {
         double sum = 0;
         for (int m = 0; m < n_gauss; ++m)
-          sum += legendre(m, point[j]) * (legendre(m - 1, point[i]) - legendre(m + 1, point[i]));
+          sum += legendre[m + 1][j] * (legendre[m][i] - legendre[m + 2][i]);
         to_the_right[i][j] = weight[j] * sum / 2;
       }
   }
@@ -108,13 +112,44 @@ const SpectralIntegration& spectral_integration() {
 
 } // namespace
 
-/// theta and its integral at the points, and the integral of 1/g^2.
-struct BesselModes::Samples {
-  AtPoints exponent; ///< int_y^(ln b) theta
-  double theta_at_surface;
-  double largest_exponent; ///< from the hub to the surface
-  double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
-};
+BesselMode::BesselMode(double inner_radius, double outer_radius, double angular_velocity, double k)
+    : a(inner_radius), b(outer_radius), omega(std::min(angular_velocity, 1 / outer_radius)), k(k),
+      theta_at_surface(logarithmic_derivative(k, k * omega * b)), q(0) {
+  const SpectralIntegration& rule = spectral_integration();
+  const double depth = log_of_ratio(b, a);
+  AtPoints theta;
+  for (const double point : rule.point)
+    theta.push_back(logarithmic_derivative(k, k * omega * b * std::exp((point - 1) * depth / 2)));
+  for (const AtPoints& weights : rule.to_the_right)
+    exponent.push_back(sum_of_products(weights, theta) * depth / 2);
+  if (sum_of_products(rule.weight, theta) * depth / 2 >= negligible_exponent) { // from hub to b
+    q = std::numeric_limits<double>::infinity();
+    return;
+  }
+  AtPoints integrand;
+  for (const double at_point : exponent)
+    integrand.push_back(depth / 2 * std::exp(2 * at_point));
+  q = sum_of_products(rule.weight, integrand);
+  for (const AtPoints& weights : rule.to_the_right)
+    q_to_the_right.push_back(sum_of_products(weights, integrand));
+}
+
+double BesselMode::compliance() const {
+  return k == 0 ? b * log_of_ratio(b, a) : b / (theta_at_surface + 1 / q);
+}
+
+BesselMode::ValueAndSlope BesselMode::at(double r) const {
+  const double depth = log_of_ratio(b, a);
+  if (k == 0)
+    return {log_of_ratio(r, a) / depth, 1 / (r * depth)};
+  const AtPoints weights =
+      spectral_integration().interpolation(1 + 2 * std::log1p((r - b) / b) / depth);
+  const double g = std::exp(-sum_of_products(weights, exponent));
+  const double share =
+      q_to_the_right.empty() ? 1 : 1 - sum_of_products(weights, q_to_the_right) / q;
+  // d/dy (g q(y) / q) = theta g q(y) / q + 1 / (g q)
+  return {g * share, (logarithmic_derivative(k, k * omega * r) * g * share + 1 / (g * q)) / r};
+}
 
 BesselModes::BesselModes(double inner_radius, double outer_radius, double angular_velocity)
     : a(inner_radius), b(outer_radius), omega(std::min(angular_velocity, 1 / outer_radius)) {
@@ -131,28 +166,6 @@ BesselModes::BesselModes(double inner_radius, double outer_radius, double angula
   }
 }
 
-BesselModes::Samples BesselModes::sample(double k) const {
-  const SpectralIntegration& rule = spectral_integration();
-  const double depth = log_of_ratio(b, a);
-  AtPoints theta;
-  for (const double point : rule.point)
-    theta.push_back(logarithmic_derivative(k, k * omega * b * std::exp((point - 1) * depth / 2)));
-
-  Samples samples;
-  samples.theta_at_surface = logarithmic_derivative(k, k * omega * b);
-  for (const AtPoints& weights : rule.to_the_right)
-    samples.exponent.push_back(sum_of_products(weights, theta) * depth / 2);
-  samples.largest_exponent = sum_of_products(rule.weight, theta) * depth / 2;
-  samples.q = 0;
-  if (samples.largest_exponent >= negligible_exponent) {
-    samples.q = std::numeric_limits<double>::infinity();
-    return samples;
-  }
-  for (int i = 0; i < n_gauss; ++i)
-    samples.q += rule.weight[i] * depth / 2 * std::exp(2 * samples.exponent[i]);
-  return samples;
-}
-
 double BesselModes::compliance_without_hub(double k) const {
   return b / logarithmic_derivative(k, k * omega * b);
 }
@@ -164,12 +177,8 @@ bool BesselModes::hub_matters(double k) const {
 }
 
 double BesselModes::computed_compliance(double k) const {
-  if (k == 0)
-    return b * log_of_ratio(b, a);
-  if (!hub_matters(k))
-    return compliance_without_hub(k);
-  const Samples samples = sample(k);
-  return b / (samples.theta_at_surface + 1 / samples.q);
+  return k > 0 && !hub_matters(k) ? compliance_without_hub(k)
+                                  : BesselMode(a, b, omega, k).compliance();
 }
 
 double BesselModes::compliance(double k) const {
@@ -184,29 +193,10 @@ double BesselModes::compliance(double k) const {
 }
 
 std::vector<double> BesselModes::profile(double k, const std::vector<double>& radii) const {
-  const double depth = log_of_ratio(b, a);
+  const BesselMode mode(a, b, omega, k);
   std::vector<double> profile;
-  if (k == 0) {
-    for (const double r : radii)
-      profile.push_back(log_of_ratio(r, a) / depth);
-    return profile;
-  }
-
-  const SpectralIntegration& rule = spectral_integration();
-  const Samples samples = sample(k);
-  const bool has_hub = std::isfinite(samples.q);
-  // int_y^(ln b) dy / g^2 at the points
-  AtPoints integrand, q_to_the_right(n_gauss);
-  for (int i = 0; i < n_gauss && has_hub; ++i)
-    integrand.push_back(depth / 2 * std::exp(2 * samples.exponent[i]));
-  for (int i = 0; i < n_gauss && has_hub; ++i)
-    q_to_the_right[i] = sum_of_products(rule.to_the_right[i], integrand);
-  for (const double r : radii) {
-    const AtPoints weights = rule.interpolation(1 + 2 * std::log1p((r - b) / b) / depth);
-    const double share = has_hub ? 1 - sum_of_products(weights, q_to_the_right) / samples.q : 1;
-    const double g = std::exp(-sum_of_products(weights, samples.exponent));
-    profile.push_back(g * share);
-  }
+  for (const double r : radii)
+    profile.push_back(mode.at(r).value);
   return profile;
 }
 

@@ -102,7 +102,7 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
       << units.after(Quantity::energy_norm) << ", "
       << (std::isfinite(certified.relative) ? "relative " + rounded_up(certified.relative, 3)
                                             : std::string("no relative bound"))
-      << "\n           (of the displacement; for the other numbers see Accuracy in "
+      << "\n           (of the displacement u_h; for the other numbers see Accuracy in "
          "doc/manual.md)\n";
   const double outside = std::max(certified.lower_bound - result.energy.value,
                                   result.energy.value - certified.upper_bound);
@@ -114,14 +114,6 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
     out << "           features of the force smaller than "
         << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
         << " may be undetected\n";
-  if (const auto& bounds = result.load_bounds) {
-    range("           G    from ", bounds->lower, bounds->upper, Quantity::force);
-    out << '\n';
-  }
-  if (const auto& bounds = result.distance_bounds) {
-    range("           c    from ", bounds->lower, bounds->upper, Quantity::length);
-    out << '\n';
-  }
 }
 
 void report_patches(std::ostream& out, const ContactResultants& contact, const Units& units) {
@@ -141,6 +133,19 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
   }
 }
 
+/// The ends, rounded outwards to two digits of their distance.
+std::string interval_text(const Interval& interval) {
+  const auto place = [](double number) { return std::floor(std::log10(std::abs(number))); };
+  const double width = interval.upper - interval.lower;
+  constexpr double all_digits = 17;
+  const auto digits = [&](double end) {
+    return width > 0 && end != 0 ? int(std::clamp(place(end) - place(width) + 2, 2., all_digits))
+                                 : all_digits;
+  };
+  return rounded_down(interval.lower, digits(interval.lower)) + " to " +
+         rounded_up(interval.upper, digits(interval.upper));
+}
+
 void report_quantities(std::ostream& out, const Result& result, const Units& units) {
   constexpr unsigned int width = 32; // of words and symbol
   for (const ResultQuantity& quantity : result_quantities()) {
@@ -149,7 +154,10 @@ void report_quantities(std::ostream& out, const Result& result, const Units& uni
       continue;
     const std::string symbol = quantity.symbol.empty() ? "   " : quantity.symbol + " =";
     out << "  " << std::left << std::setw(width - symbol.size()) << quantity.words << symbol << ' '
-        << quantity.text(*value) << units.after(quantity.quantity) << '\n';
+        << quantity.text(*value) << units.after(quantity.quantity);
+    if (const auto interval = guaranteed_interval(quantity.name, result, units))
+      out << "   guaranteed " << interval_text(*interval);
+    out << '\n';
   }
 }
 

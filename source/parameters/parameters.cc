@@ -142,14 +142,11 @@ void declare_mesh(Section<RunOptions::Mesh> keys) {
 }
 
 void declare_certificate(Section<CertificateOptions> keys) {
-  keys.add("Error bound", &CertificateOptions::error_bound,
-           "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
-           "with bounds of the energy from both sides; costs at most about another linear solve.");
   keys.add(
-      "Load bounds", &CertificateOptions::load_bounds,
-      "\"true\" or \"false\": bound the work-conjugate load G, or the distance if G is given, "
-      "from both sides, by the certified energies of further road distances; costs two or more "
-      "scenes on the last mesh.");
+      "Error bound", &CertificateOptions::error_bound,
+      "\"true\" or \"false\": compute a guaranteed bound of the error in the energy norm, "
+      "with guaranteed intervals of the energy, the contact force and the vertical load; costs "
+      "at most about another linear solve.");
 }
 
 void declare_contact(Section<ContactOptions> keys) {

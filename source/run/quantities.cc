@@ -33,6 +33,13 @@ auto optional_member(std::optional<Part> Result::*part, std::optional<double> Pa
   };
 }
 
+/// An end of the guaranteed interval of a load; nullopt without certificate.
+auto load_bound(Interval LoadBounds::*load, double Interval::*end) {
+  return [load, end](const Result& result) {
+    return result.certified ? std::optional(result.certified->loads.*load.*end) : std::nullopt;
+  };
+}
+
 Quantities mesh_quantities() {
   return {
       {"scene.road_distance", "road distance", "c", Quantity::length, Shown::screen, all_digits,
@@ -67,6 +74,10 @@ Quantities load_quantities() {
       {"contact.vertical_load", "vertical load", "", Quantity::force,
        Shown::screen | Shown::curve | Shown::scene_table, all_digits,
        [](const Result& r) { return r.contact.loads.vertical; }},
+      {"contact.vertical_load_lower_bound", "guaranteed lower bound of the vertical load", "",
+       Quantity::force, 0, all_digits, load_bound(&LoadBounds::vertical, &Interval::lower)},
+      {"contact.vertical_load_upper_bound", "guaranteed upper bound of the vertical load", "",
+       Quantity::force, 0, all_digits, load_bound(&LoadBounds::vertical, &Interval::upper)},
       {"contact.length", "contact length (nip)", "", Quantity::length,
        Shown::screen | Shown::curve | Shown::scene_table, 5,
        [](const Result& r) {
@@ -78,17 +89,13 @@ Quantities load_quantities() {
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.loads.total; }},
+      {"contact.force_lower_bound", "guaranteed lower bound of F", "", Quantity::force, 0,
+       all_digits, load_bound(&LoadBounds::total, &Interval::lower)},
+      {"contact.force_upper_bound", "guaranteed upper bound of F", "", Quantity::force, 0,
+       all_digits, load_bound(&LoadBounds::total, &Interval::upper)},
       {"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force, Shown::screen,
        all_digits,
        [](const Result& r) { return r.contact.loads.work_conjugate.value_or(not_known); }},
-      {"contact.work_conjugate_load_lower_bound", "guaranteed lower bound of G", "",
-       Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::lower)},
-      {"contact.work_conjugate_load_upper_bound", "guaranteed upper bound of G", "",
-       Quantity::force, 0, all_digits, optional_member(&Result::load_bounds, &Bounds::upper)},
-      {"contact.distance_lower_bound", "guaranteed lower bound of c", "", Quantity::length, 0,
-       all_digits, optional_member(&Result::distance_bounds, &Bounds::lower)},
-      {"contact.distance_upper_bound", "guaranteed upper bound of c", "", Quantity::length, 0,
-       all_digits, optional_member(&Result::distance_bounds, &Bounds::upper)},
       {"contact.stiffness.vertical_load", "vertical stiffness", "", Quantity::stiffness,
        Shown::screen | Shown::curve | Shown::scene_table, 4,
        stiffness_of([](const Loads& stiffness) { return stiffness.vertical; })},
@@ -178,10 +185,7 @@ Quantities error_quantities() {
            return {};
          return std::abs(*r.errors->exact_distance - r.road_distance);
        }},
-      {"error.exact_feasible_energy_norm", "true error of the admissible displacement v", "",
-       Quantity::energy_norm, 0, 3,
-       if_resolved(optional_member(&Result::errors, &TrueErrors::admissible_energy_norm))},
-      {"error.effectivity", "bound over (2 (J(v) - J(u)))^(1/2), v the admissible displacement", "",
+      {"error.effectivity", "guaranteed bound over true error in the energy norm", "",
        Quantity::number, 0, 3, optional_member(&Result::errors, &TrueErrors::effectivity)},
       {"error.expected_order", "expected order of the energy norm in unknowns^(-1/2)", "",
        Quantity::number, 0, 3, optional_member(&Result::errors, &TrueErrors::expected_order)},
@@ -272,6 +276,19 @@ const ResultQuantity& result_quantity(const std::string& name) {
   if (found == all.end())
     throw std::out_of_range(name);
   return *found;
+}
+
+std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
+                                            const Units& units) {
+  const auto end = [&](const char* which) -> std::optional<double> {
+    for (const ResultQuantity& quantity : result_quantities())
+      if (quantity.name == name + which)
+        return quantity.in_users_units(result, units);
+    return {};
+  };
+  const auto lower = end("_lower_bound"), upper = end("_upper_bound");
+  return lower && upper && std::isfinite(*upper - *lower) ? std::optional(Interval{*lower, *upper})
+                                                          : std::nullopt;
 }
 
 void print_quantities(std::ostream& out) {

@@ -161,7 +161,7 @@ std::string missing_error_text(const RunOptions& options, const Result& result,
 
 std::string residual_text(const Residuals& residuals) {
   return "the conditions of contact and equilibrium hold to " + rounded(residuals.largest(), 6) +
-         " only, wanted " + rounded(wanted_residual, 6) +
+         " only, wanted " + rounded(residuals.allowed, 6) +
          ": use fewer unknowns, cells that are less stretched, or a larger hub";
 }
 

@@ -10,9 +10,6 @@ namespace {
 void check_certificate(const RunOptions& options) {
   if (options.certificate.error_bound)
     return;
-  if (options.certificate.load_bounds)
-    throw BadValue("Certificate", "Load bounds",
-                   "they need the error bound; set Certificate/Error bound = true");
   if (options.mesh.wanted_relative_error > 0)
     throw BadValue("Mesh", "Wanted relative error",
                    "the target needs the error bound; set Certificate/Error bound = true");

@@ -143,7 +143,7 @@ void add_shortfalls_and_remarks(const RunOptions& options, const Mesh& mesh,
   if (wants_error && certificate && !is_reached(options, certificate))
     result.shortfalls.push_back(
         missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
-  else if (result.shortfalls.empty() && result.residuals.largest() > wanted_residual &&
+  else if (result.shortfalls.empty() && result.residuals.largest() > result.residuals.allowed &&
            options.contact.method == ContactMethod::active_set)
     result.shortfalls.push_back(residual_text(result.residuals));
   for (const std::string& remark : remarks_on(options, solution, result))

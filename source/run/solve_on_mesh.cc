@@ -3,6 +3,7 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
+#include "rollwave/run/round_off.h"
 #include "rollwave/scene/scene.h"
 
 #include <deal.II/base/exceptions.h>
@@ -24,9 +25,10 @@ double relative(double part, double whole) {
   return part == 0 ? 0 : part / whole;
 }
 
+/// @param round_off of K u, as equilibrium_round_off()
 Residuals measure_residuals(const ContactBoundary& boundary, const ContactProblem& problem,
                             const ContactSolution& solution, FieldVector stiffness_times_u,
-                            const FieldVector* load) {
+                            double round_off, const FieldVector* load) {
   const auto& [displacement, force] = solution.state;
   FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
@@ -46,7 +48,8 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
   const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
   return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
           relative(negative_pressure, pressure.linfty_norm()),
-          relative(force_times_gap, force_times_road)};
+          relative(force_times_gap, force_times_road),
+          std::max(wanted_residual, relative(round_off, forces))};
 }
 
 /// Finds the distance if a load is given. Then solves the contact problem.
@@ -145,8 +148,9 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
   const double work_of_force = f ? solution.displacement * *f : 0.;
   require_finite(norm_squared + std::abs(work_of_force), "the energy");
   solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
-  solution.residuals = measure_residuals(solution.boundary, solution.problem, solution.contact,
-                                         std::move(stiffness_times_u), f);
+  solution.residuals = measure_residuals(
+      solution.boundary, solution.problem, solution.contact, std::move(stiffness_times_u),
+      equilibrium_round_off(solution.boundary.space(), scene, solution.displacement), f);
   return solution;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rollwave/error_bound/admissible_displacement.h"
+#include "rollwave/error_bound/load_bounds.h"
 
 #include <tuple>
 #include <vector>
@@ -15,19 +16,21 @@ class RunStatistics;
 /// Section `Certificate`.
 struct CertificateOptions {
   bool error_bound = true;
-  bool load_bounds = false;
 
-  auto members() const { return std::tie(error_bound, load_bounds); }
-  bool operator==(const CertificateOptions& other) const { return members() == other.members(); }
+  bool operator==(const CertificateOptions& other) const {
+    return error_bound == other.error_bound;
+  }
 };
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
 struct CertifiedError {
-  double energy_norm;  ///< upper bound of sqrt(a(v - u, v - u)), v the admissible displacement
-  double force_data;   ///< delta, the part of energy_norm for the difference of Q and Q_h
-  double relative;     ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
-  double lower_bound;  ///< of J(u)
-  double upper_bound;  ///< of J(u), the energy J(v)
+  double energy_norm; ///< upper bound of sqrt(a(u_h - u, u_h - u)): eta + delta + |u_h - v|
+  double force_data;  ///< delta, the part of energy_norm for the difference of Q and Q_h
+  double relative;    ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
+  double lower_bound; ///< of J(u)
+  double upper_bound; ///< of J(u), the energy J(v)
+  LoadBounds loads;
+  double eta;          ///< as in Certificate
   double norm_squared; ///< a(v, v)
 
   /// Features of a force expression that are smaller than this length may be undetected; 0 without
@@ -43,7 +46,8 @@ struct CertifiedError {
  *     eta^2 = int r [ (tau_z - alpha v_z)^2 / alpha + (tau_r - v_r)^2 ] dr dz
  *             + 2 b int lambda (phi - v) dz
  *
- * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2.
+ * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2, so that u_h is within
+ * eta + |u_h - v| of u, |w|^2 = a(w, w). The loads have the intervals of bound_load().
  *
  * v is the discrete displacement except in the cells at the surface, where the correction c(z) of
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from

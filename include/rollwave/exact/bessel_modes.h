@@ -20,12 +20,36 @@ namespace rollwave {
  *
  * Integrals over y are taken by spectral integration on Gauss-Legendre points.
  */
+class BesselMode {
+public:
+  /// The mode of a real k >= 0.
+  BesselMode(double inner_radius, double outer_radius, double angular_velocity, double k);
+
+  /// 1 / sigma_k, a length: the surface displacement under a pressure of this mode.
+  double compliance() const;
+
+  /// R_k(r)/R_k(b) and R_k'(r)/R_k(b).
+  struct ValueAndSlope {
+    double value;
+    double slope;
+  };
+  ValueAndSlope at(double r) const;
+
+private:
+  double a, b, omega, k;
+  std::vector<double> exponent; ///< int_y^(ln b) theta at the points
+  double theta_at_surface;
+  double q; ///< int_(ln a)^(ln b) dy / g^2; infinite where the hub is too far inside to be felt
+  std::vector<double> q_to_the_right; ///< int_y^(ln b) dy / g^2 at the points; empty without hub
+};
+
+/// The compliances of all modes of a ring.
 class BesselModes {
 public:
   BesselModes(double inner_radius, double outer_radius, double angular_velocity);
 
-  /// 1 / sigma_k for real k >= 0, a length: the surface displacement under a pressure of the mode
-  /// k. Beyond k = 64 by interpolation of k / sigma_k in panels that double in length.
+  /// 1 / sigma_k for real k >= 0. Beyond k = 64 by interpolation of k / sigma_k in panels that
+  /// double in length.
   double compliance(double k) const;
 
   /// The compliance for a hub at r = 0, b / theta; it differs from the other by a factor
@@ -39,8 +63,6 @@ public:
   std::vector<double> profile(double k, const std::vector<double>& radii) const;
 
 private:
-  struct Samples;
-  Samples sample(double k) const;
   double computed_compliance(double k) const;
   bool hub_matters(double k) const;
 

@@ -51,6 +51,11 @@ const std::vector<ResultQuantity>& result_quantities();
 /// The quantity of a name. @throws std::out_of_range
 const ResultQuantity& result_quantity(const std::string& name);
 
+/// The guaranteed interval of a quantity in the user's units, by the quantities that end in
+/// _lower_bound and _upper_bound; nullopt where these do not exist or are infinite.
+std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
+                                            const Units& units);
+
 /// Prints all quantities as a table in Markdown.
 void print_quantities(std::ostream& out);
 

@@ -20,7 +20,7 @@ std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolutio
 std::string missing_error_text(const RunOptions& options, const Result& result,
                                bool is_at_finest_level);
 
-/// A text on conditions of contact and equilibrium that do not hold to wanted_residual.
+/// A text on conditions of contact and equilibrium that do not hold to Residuals::allowed.
 std::string residual_text(const Residuals& residuals);
 
 } // namespace rollwave

@@ -25,12 +25,6 @@ struct Energy {
   double norm_squared; ///< a(u_h, u_h)
 };
 
-/// Guaranteed bounds, see bound_load() and bound_distance().
-struct Bounds {
-  double lower;
-  double upper;
-};
-
 /// One mesh of an adaptive run.
 struct CycleFigures {
   unsigned int n_cells;
@@ -48,6 +42,7 @@ struct Residuals {
   double penetration;       ///< max (u_i - phi_i)^+ / max |u_i| on contact nodes
   double negative_pressure; ///< max (-lambda_i)^+ / max |lambda_i|
   double complementarity;   ///< sum |N_i (phi_i - u_i)| / sum |N_i phi_i|
+  double allowed;           ///< wanted_residual or, where that is more, what rounding u leaves
 
   /// The largest of the four.
   double largest() const;
@@ -65,15 +60,13 @@ struct TrueErrors {
   double half_width;                    ///< |w - w_h|
   std::optional<double> exact_distance; ///< where a load is given
 
-  /// Both need a certificate: sqrt(a(u - v, u - v)) of its admissible displacement v; and the
-  /// effectivity (eta + delta) / sqrt(2 (J(v) - J(u))) of its bound, where the computed J(v) is
-  /// greater than the exact J(u).
-  std::optional<double> admissible_energy_norm;
+  /// CertifiedError::energy_norm over energy_norm, where both are known.
   std::optional<double> effectivity;
 
   /// The order of the energy norm in h ~ unknowns^(-1/2) that theory expects. On uniform meshes:
-  /// 1/2 where the zone cuts the contact short, otherwise the lesser of the degree and 3/2; on
-  /// adaptive ones the degree.
+  /// 1/2 where the zone cuts the contact short, otherwise the lesser of the degree and 3/2. On
+  /// adaptive ones: the degree, or 3 if it is less and the zone cuts the contact short at the
+  /// critical speed.
   double expected_order;
 };
 
@@ -104,8 +97,6 @@ struct Result {
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;
-  std::optional<Bounds> load_bounds;          ///< of the work-conjugate load G
-  std::optional<Bounds> distance_bounds;      ///< where that load is given
   std::optional<TrueErrors> errors;           ///< where a comparison was asked for
   std::vector<CycleFigures> cycles;           ///< one for each mesh
   std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load is given
