@@ -47,7 +47,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('error_bound/admissible_pressure', 'std::clamp(edge.slope, -2 * edge.mean, 2 * edge.mean)', 'std::clamp(edge.slope, -3 * edge.mean, 3 * edge.mean)'),
     ('error_bound/admissible_pressure', 'edge_pressures[from] = {0, 0};', ';'),
     ('error_bound/force_integral', 'f * (b - r) * (b + r) / 2', 'f * (b - r) * (b + r)'),
-    ('error_bound/stress_function', 'mean - slope * (1 - t) / 2', 'mean + slope * (1 - t) / 2'),
+    ('error_bound/dual_system', 'mean - slope * (1 - t) / 2', 'mean + slope * (1 - t) / 2'),
     ('exact/exact_solution', 'solution.norm_squared / 2 - work_of_f', 'solution.norm_squared / 2 + work_of_f'),
     ('exact/exact_solution', 'work_of_f - pressure_times_road', 'work_of_f + pressure_times_road'),
     ('exact/exact_solution', 'work_of_f_alone - scene', 'work_of_f_alone + scene'),

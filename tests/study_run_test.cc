@@ -188,7 +188,7 @@ protected:
                   const std::optional<StudyPart>& part = {}) const {
     const Parameters all = parameters(assignments);
     std::ostringstream out;
-    Study study = plan_study(all, MPI_COMM_SELF, part);
+    Study study = plan_study(all, part);
     const unsigned int n_made = run_study(study, all, out);
     return study.n_ended() - n_made;
   }

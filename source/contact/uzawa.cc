@@ -35,6 +35,19 @@ std::string diverges_text(const StepLength& length, double unit) {
   return text.str();
 }
 
+/// Refuses a step length that cannot converge. Where rho is too large u grows, and with it the
+/// residual that suffices, so that the iteration need not show it. The active set method finds the
+/// nodes in contact. @return the length with the largest that can converge
+StepLength checked_long_step(const ContactEquations& equations, const ContactProblem& problem,
+                             StepLength length, RunStatistics& statistics) {
+  constexpr unsigned int no_limit = std::numeric_limits<unsigned int>::max();
+  const ContactSolution exact = active_set(equations, problem, no_limit, {}, statistics);
+  length.largest = largest_step_length(equations, problem, exact.active);
+  if (length.largest && length.rho >= *length.largest)
+    throw NotSolved(diverges_text(length, problem.unit));
+  return length;
+}
+
 /// On an iteration whose residual has stopped falling.
 std::string stagnates_text(const ContactOptions& options, double rho, std::size_t steps,
                            double smallest) {
@@ -130,6 +143,8 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
   const double safe = 2 / largest_compliance(equations, problem, all),
                rho = options.rho ? *options.rho * problem.unit : 0.9 * safe;
   StepLength length = {rho, safe, {}};
+  if (rho >= safe)
+    length = checked_long_step(equations, problem, length, statistics);
   ContactSolution solution;
   Vector<double> p = begin_with(problem, start, solution);
   const Vector<double>& displacement = solution.state.displacement;
@@ -154,10 +169,7 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
     // A scene without contact is solved when the first projection leaves p at zero. Short steps
     // change u by little, so that the contact conditions have to hold as well.
     if (measured <= options.tolerance * size && violation <= std::sqrt(options.tolerance) * size) {
-      // Where rho is too large u grows, and with it the residual that suffices.
       length.largest = largest_step_length(equations, problem, solution.active);
-      if (length.largest && rho >= *length.largest)
-        throw NotSolved(diverges_text(length, problem.unit));
       solution.step_length = length;
       solution.gap_accuracy = std::max(options.tolerance * size, violation);
       return solution;
@@ -171,9 +183,6 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
       if (rho < safe)
         throw NotSolved(
             stagnates_text(options, rho / problem.unit, solution.history.size(), smallest));
-      length.largest = largest_step_length(
-          equations, problem,
-          active_set(equations, problem, options.most_steps, {}, statistics).active);
       throw NotSolved(diverges_text(length, problem.unit));
     }
   }

@@ -17,9 +17,8 @@ class RunStatistics;
 struct CertificateOptions {
   bool error_bound = true;
 
-  bool operator==(const CertificateOptions& other) const {
-    return error_bound == other.error_bound;
-  }
+  auto members() const { return std::tie(error_bound); }
+  bool operator==(const CertificateOptions& other) const { return members() == other.members(); }
 };
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
