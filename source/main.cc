@@ -5,7 +5,7 @@
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/program.h"
-#include "rollwave/run/quantities.h"
+#include "rollwave/run/quantity_table.h"
 
 #include <deal.II/base/mpi.h>
 

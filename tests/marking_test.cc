@@ -57,14 +57,6 @@ TEST(Marking, LeavesOutCellsFarBelowTheLargest) {
   EXPECT_EQ(Ring(row_of_eight).cut({1, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3, 0.3}, 1), 8u);
 }
 
-TEST(Marking, CutsAShareOfManyCells) {
-  std::vector<double> indicators(200);
-  for (unsigned int cell = 0; cell < 200; ++cell)
-    indicators[cell] = std::pow(0.3, cell);
-  Ring ring({"Mesh/Radial cells=1", "Mesh/Angular cells=200"});
-  EXPECT_EQ(ring.cut(indicators, 0.5), 3u);
-}
-
 TEST(Marking, DoesNotDependOnTheUnitOfTheIndicators) {
   for (const double unit : {1e-300, 1e-170, 1e170, 1e300}) {
     std::vector<double> indicators = falling;

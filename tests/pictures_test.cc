@@ -142,9 +142,10 @@ TEST_F(Pictures, ProfilesOfMaterialsLieAlongTheRoad) {
     auto blocks = blocks_of(read("study-profiles.gp"));
     std::map<std::string, Rows> expected;
     for (const CsvRow& row : csv_rows(read("study-profiles.csv"))) {
-      const double c = number(row, "run") == 1 ? 0.7 : 0.8, x = number(row, "z") - 1.5 * M_PI;
+      const std::string run = row.at("run") == rows.front().at("run") ? "1" : "2"; // its digest
+      const double c = run == "1" ? 0.7 : 0.8, x = number(row, "z") - 1.5 * M_PI;
       const double m = 1 + curvature * c;
-      expected["$curve_1_" + row.at("run")].push_back(
+      expected["$curve_1_" + run].push_back(
           {curvature == 0 ? c * std::tan(x) : (std::asin(m * std::sin(x)) - x) / curvature,
            number(row, "pressure")});
     }

@@ -121,9 +121,9 @@ TEST(StudyCsv, RowsOfOtherParametersAreNotTakenOver) {
   const std::string table = csv_header(study) + csv_row(study, 0) + csv_row(study, 1);
   ASSERT_EQ(taken_over(planned({vary}), table).size(), 2u);
   const std::vector<std::string> values = {
-      "0.01", "0.3",   "2",     "3",        "17",         "400000",   "none",
-      "auto", "true",  "false", "4, 5",     "kelly",      "all",      "change",
-      "gap",  "uzawa", "total", "vertical", "active set", "iterative"};
+      "0.01",   "0.3",  "0.9",   "2",     "3",        "17",         "400000",
+      "none",   "auto", "true",  "false", "4, 5",     "kelly",      "all",
+      "change", "gap",  "uzawa", "total", "vertical", "active set", "iterative"};
   for (const Key& key : all_keys()) {
     if (key.section == "Output" || (key.section == "Study" && key.name != "True errors") ||
         key.path() == "Mesh/Degree")

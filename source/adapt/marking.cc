@@ -61,10 +61,6 @@ namespace {
 /// of contact in a point grow fourfold where only its innermost cells need a cut.
 constexpr double least_indicator = 0.25;
 
-/// Of all cells, times the fraction of the bulk: so many are marked at least. Without this limit, a
-/// mesh with many cells may grow by a few in each cycle.
-constexpr double least_share = 0.03;
-
 constexpr int finest_level = internal::p4est::functions<2>::max_level - 1;
 
 using MeshCell = Triangulation<2>::active_cell_iterator;
@@ -83,37 +79,25 @@ Vector<double> scaled_indicators(const Triangulation<2>& triangulation,
   return scaled;
 }
 
-/// The largest t for which @p sum_from(t), the sum over the indicators from t on, is @p wanted.
-template <typename Function>
-double threshold_of(const Function& sum_from, double wanted) {
+/// The indicator from which on cells are marked: the largest t for which the indicators from t on
+/// hold @p fraction of the sum of all squares, but not less than least_indicator.
+double marking_threshold(const Vector<double>& indicators, double fraction,
+                         MPI_Comm communicator) {
+  const auto sum_from = [&](double t) {
+    double sum = 0;
+    for (const double indicator : indicators)
+      if (indicator >= t)
+        sum += indicator * indicator;
+    return Utilities::MPI::sum(sum, communicator);
+  };
+  const double wanted = fraction * sum_from(0);
   double low = 0, high = 1;
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = (low + high) / 2;
     (sum_from(middle) >= wanted ? low : high) = middle;
   }
-  return low;
-}
-
-/// The indicator from which on cells are marked.
-double marking_threshold(const Triangulation<2>& triangulation, const Vector<double>& indicators,
-                         double fraction) {
-  const auto sum_from = [&](double t, const auto& term) {
-    double sum = 0;
-    for (const double indicator : indicators)
-      if (indicator >= t && indicator > 0)
-        sum += term(indicator);
-    return Utilities::MPI::sum(sum, triangulation.get_communicator());
-  };
-  const auto square = [](double indicator) { return indicator * indicator; };
-  const auto one = [](double) { return 1.; };
-  const double bulk =
-      threshold_of([&](double t) { return sum_from(t, square); }, fraction * sum_from(0, square));
-  const double few = threshold_of([&](double t) { return sum_from(t, one); },
-                                  least_share * fraction * triangulation.n_global_active_cells());
-  // The indicators of mirror images differ by round-off, which must not choose between them. Cells
-  // without error are never marked.
-  return std::max((1 - 1e-6) * std::min(std::max(bulk, least_indicator), few),
-                  std::numeric_limits<double>::min());
+  // The indicators of mirror images differ by round-off, which must not choose between them.
+  return (1 - 1e-6) * std::max(low, least_indicator);
 }
 
 /// The thickness of the ring in the coordinate s = int alpha^(1/2) dr, in which sin(k z) decays
@@ -196,7 +180,7 @@ bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
       triangulation.set_all_refine_flags();
     else
       GridRefinement::refine(triangulation, scaled,
-                             marking_threshold(triangulation, scaled, share));
+                             marking_threshold(scaled, share, triangulation.get_communicator()));
     for (const auto& cell : triangulation.active_cell_iterators())
       if (cell->level() >= finest_level)
         cell->clear_refine_flag();

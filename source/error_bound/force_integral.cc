@@ -23,6 +23,7 @@ using namespace dealii;
 namespace {
 
 using Cell = DoFHandler<2>::active_cell_iterator;
+using Shapes = RadialShapesOfMesh;
 
 /// Lines z = const through each cell on which Q is compared with Q_h.
 constexpr unsigned int n_lines = 32;
@@ -157,8 +158,7 @@ SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Qu
 
 } // namespace
 
-ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene,
-                             const RadialShapesOfMesh& shapes)
+ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene, const Shapes& shapes)
     : uniform(scene.force.uniform.has_value()),
       angular(space.dof_handler().get_fe().degree + (uniform ? 1 : 3)),
       inwards(space.dof_handler().get_fe().degree + 1),
@@ -170,8 +170,7 @@ ForceIntegral::ForceIntegral(const RingSpace& space, const Scene& scene,
     integrate_expression(space, scene, shapes);
 }
 
-void ForceIntegral::integrate_uniform(const RingSpace& space, double f,
-                                      const RadialShapesOfMesh& shapes) {
+void ForceIntegral::integrate_uniform(const RingSpace& space, double f, const Shapes& shapes) {
   const double b = space.outer_radius();
   for (const auto& cell : space.dof_handler().active_cell_iterators()) {
     if (!cell->is_locally_owned())
@@ -182,7 +181,7 @@ void ForceIntegral::integrate_uniform(const RingSpace& space, double f,
 }
 
 void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& scene,
-                                         const RadialShapesOfMesh& shapes) {
+                                         const Shapes& shapes) {
   std::map<std::pair<double, double>, std::vector<Cell>> sectors; // by intervals of z
   for (const auto& cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
@@ -205,8 +204,7 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
 
 /// Sets Q_h, delta and width on the cells between two angles.
 void ForceIntegral::integrate_sector(const Scene& scene, const std::vector<double>& mesh_radii,
-                                     const std::vector<Cell>& cells,
-                                     const RadialShapesOfMesh& shapes) {
+                                     const std::vector<Cell>& cells, const Shapes& shapes) {
   const double begin = cells.front()->vertex(0)[1], length = cells.front()->vertex(3)[1] - begin;
   double innermost = scene.outer_radius;
   std::vector<double> radii;
@@ -254,8 +252,8 @@ void ForceIntegral::values_on_line_at(unsigned int cell, double t,
   }
 }
 
-void ForceIntegral::add_load(const RingSpace& space, const RadialShapesOfMesh& shapes,
-                             TestSpace kind, const AffineConstraints<double>& constraints,
+void ForceIntegral::add_load(const RingSpace& space, const Shapes& shapes, TestSpace kind,
+                             const AffineConstraints<double>& constraints,
                              FieldVector& load) const {
   const bool of_potential = kind == TestSpace::potentials;
   const unsigned int n = space.dof_handler().get_fe().degree + 1;
@@ -292,7 +290,7 @@ void ForceIntegral::add_load(const RingSpace& space, const RadialShapesOfMesh& s
 }
 
 FieldVector assemble_load(const RingSpace& space, const ForceIntegral& force,
-                          const RadialShapesOfMesh& shapes) {
+                          const Shapes& shapes) {
   FieldVector load = space.make_field();
   force.add_load(space, shapes, ForceIntegral::TestSpace::displacements, space.constraints(), load);
   load.compress(VectorOperation::add);

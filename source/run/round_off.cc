@@ -30,7 +30,8 @@ double equilibrium_round_off(const RingSpace& space, const Scene& scene, const F
       largest = std::max(largest, std::abs(u(dof)));
     squared += dofs.size() * std::pow(entry * largest, 2);
   }
-  return std::numeric_limits<double>::epsilon() *
+  constexpr double of_solution = 4; // with the errors that rounding causes in the solution
+  return of_solution * std::numeric_limits<double>::epsilon() *
          std::sqrt(Utilities::MPI::sum(squared, space.communicator()));
 }
 

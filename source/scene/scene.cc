@@ -32,10 +32,10 @@ std::string text(const Parts&... parts) {
   return out.str();
 }
 
-/// True if a user who has read @p exact on the screen, or has computed it, may have written
-/// @p number: it is rounded to six digits or more.
+/// True if a user who has read @p exact on the screen, or has computed it, may have written the
+/// larger @p number: it is rounded to six digits or more.
 bool is_rounding_of(double number, double exact) {
-  if (std::abs(number - exact) <= 4 * std::numeric_limits<double>::epsilon() * exact)
+  if (number <= exact * (1 + 4 * std::numeric_limits<double>::epsilon()))
     return true;
   for (int digits = 6; digits <= std::numeric_limits<double>::digits10; ++digits)
     if (to_number(rounded(exact, digits)) == number)

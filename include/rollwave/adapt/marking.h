@@ -57,9 +57,8 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * @p indicators are the eta_K of its active cells; those of other processes' cells are not used.
  * Bulk marking is that of W. Doerfler (SIAM J. Numer. Anal. 33 (1996) 1106-1124): the fewest cells
  * with sum eta_K^2 >= marked_fraction of the whole, without those below a quarter of the largest
- * indicator, but 0.03 marked_fraction of all cells at least. Cells with the same indicator are
- * marked together, so that symmetric scenes keep symmetric meshes, and the mesh does not depend on
- * the number of processes.
+ * indicator. Cells with the same indicator are marked together, so that symmetric scenes keep
+ * symmetric meshes, and the mesh does not depend on the number of processes.
  *
  * If that gives more than @p most_cells active cells, the fraction is smaller. Neighbours differ by
  * one level at most, over the seam as well. Cells of level 29 are not cut, the limit of CellId and

@@ -4,7 +4,6 @@
 #include "rollwave/scene/units.h"
 
 #include <functional>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,8 +54,5 @@ const ResultQuantity& result_quantity(const std::string& name);
 /// _lower_bound and _upper_bound; nullopt where these do not exist or are infinite.
 std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
                                             const Units& units);
-
-/// Prints all quantities as a table in Markdown.
-void print_quantities(std::ostream& out);
 
 } // namespace rollwave
