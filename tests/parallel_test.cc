@@ -96,7 +96,7 @@ TEST_F(Processes, MayBeMoreThanCells) {
                        {6});
 }
 
-// Strips of one column or none, and cells next to them that are the same on both sides.
+// Processes with one column of cells or none: the cells on both sides of a column are the same.
 TEST_F(Processes, MayBeMoreThanColumns) {
   expect_answer_of_one(scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' "
                                "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'",
@@ -168,7 +168,7 @@ void expect_refusal(const Outcome& outcome, const std::string& words) {
 }
 
 TEST_F(Processes, ReportBadInputOnce) {
-  expect_refusal(shell(on_processes(3) + "$rollwave " + scene + " --set Solver/Kind=direct"),
+  expect_refusal(shell(on_processes(3) + "$rollwave " + scene + " --set Mesh/Degre=2"),
                  "--set");
   expect_refusal(shell(on_processes(2) + "$rollwave /no/such/file"), "cannot be read");
 }

@@ -95,6 +95,7 @@ struct StepLength {
 /// Called after each step of a contact iteration with all steps so far.
 using ContactObserver = std::function<void(const std::vector<ContactStep>& history)>;
 
+/// The state that a contact method has found, with its steps.
 struct ContactSolution {
   ContactState state;
   std::vector<bool> active;

@@ -16,8 +16,9 @@ namespace rollwave {
  * Let theta be the largest eigenvalue of the compliance on a set of nodes, see
  * largest_compliance(). The method converges from any start if 0 < rho < 2 / theta for the set of
  * all contact nodes. It diverges if rho >= 2 / theta for the nodes that are in contact at the
- * solution, and is refused then, since a loose tolerance might be met before the residual grows.
- * Between the two the residual may stop falling.
+ * solution. active_set() finds these before the first step if rho is not safe, and a rho that
+ * diverges is refused, since a loose tolerance might be met before the residual grows. Between the
+ * two the residual may stop falling.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.

@@ -16,7 +16,7 @@ struct Scene;
  * An approximation Q_h of the integral Q of a force f from the surface inwards. The load and the
  * error bound are computed from it:
  *
- *     Q(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int Q w_r dr dz   for w = 0 on r = a,
+ *     Q(r, z) = int_r^b rho f(rho, z) drho,      (f, w) = int Q w_r dr dz   for w = 0 on r = a.
  *
  * For a force that is a number, Q_h = Q = f (b^2 - r^2)/2. For an expression Q_h is, on each cell,
  * the polynomial that equals Q at the points of rule() along z and of RadialShapes along r; Q there

@@ -30,6 +30,7 @@ struct LoadBounds {
  */
 class LoadFunction {
 public:
+  /// @param k 0 or 1
   LoadFunction(const Scene& scene, unsigned int k);
 
   double on_surface(double z) const;                               ///< cos(k x)

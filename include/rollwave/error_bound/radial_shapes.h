@@ -26,10 +26,12 @@ namespace rollwave {
  */
 class StressFunctionBasis {
 public:
+  /// @param scene must outlive it
   StressFunctionBasis(const Scene& scene, unsigned int degree, double begin, double end);
 
+  /// All p + 1 shape functions at the radius r, by increasing Gauss-Lobatto point, and their d/ds.
   dealii::Vector<double> values(double r) const;
-  dealii::Vector<double> depth_derivatives(double r) const; ///< d/ds
+  dealii::Vector<double> depth_derivatives(double r) const;
 
 private:
   dealii::Vector<double> primitives(double r) const;

@@ -5,9 +5,9 @@
 
 namespace rollwave {
 
-/// Writes the files that @p parameters ask for. Each process writes its cells, rank 0 the other
-/// files. The seconds are added to the statistics of @p solution; its summary is written last.
-/// @throws NotWritten.
+/// Writes the files that @p parameters ask for. All processes must call it, and rank 0 writes. The
+/// seconds are added to the statistics of @p solution. The summary is the last file before the
+/// pictures. @throws NotWritten.
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution);
 

@@ -27,7 +27,7 @@ Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communica
 
 /// Refines a mesh where @p indicators of the cells are large, as refine_mesh(), and makes its space
 /// anew. Returns false, and changes nothing, where the mesh would get too large or no cell is
-/// marked.
+/// marked. All processes must call it.
 bool refine(Mesh& mesh, const std::vector<double>& indicators, const Scene& scene,
             const RunOptions& options, RunStatistics& statistics);
 

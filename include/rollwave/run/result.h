@@ -11,6 +11,7 @@
 
 namespace rollwave {
 
+/// The size of a mesh and of its problem.
 struct MeshFigures {
   unsigned int degree;
   unsigned int n_cells;
@@ -20,6 +21,7 @@ struct MeshFigures {
   double h_max; ///< largest cell diameter in (r, b z), a length
 };
 
+/// Energies of the discrete displacement, for a unit of width.
 struct Energy {
   double value;        ///< J(u_h)
   double norm_squared; ///< a(u_h, u_h)

@@ -47,7 +47,7 @@ void check_simulation(const Scene& scene, const RunOptions& options);
 Solution simulate(const Scene& scene, const RunOptions& options,
                   MPI_Comm communicator = MPI_COMM_SELF, const Progress& progress = {});
 
-/// What runs on one mesh, at one speed and under one force share.
+/// The objects that runs on one mesh, at one speed and under one force share.
 struct SharedObjects {
   System system;
   std::unique_ptr<const Load> load;       ///< nullptr without force
@@ -57,6 +57,7 @@ struct SharedObjects {
 /// Solves a scene without refinement on objects that belong to the same radii, mesh options, speed
 /// and force, and whose zone contains that of the scene.
 /// @param statistics work and seconds of making the objects, if they are to be part of the result
+/// @throws BadValue for a load that no distance gives; NotSolved as solve_on_mesh(); Interrupted
 Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
                          const RunOptions& options, RunStatistics statistics);
 

@@ -43,10 +43,11 @@ public:
   CholmodFactor(CholmodFactor&& other) noexcept;
   ~CholmodFactor();
 
-  /// Sums up the triplets to K and analyses it. @throws NotSolved when memory is short.
+  /// Sums up the triplets to K and analyses it. @throws NotEnoughMemory
   void set_matrix(const LowerTriplets& triplets);
 
-  /// Computes L. @throws NotSolved when K is not positive definite or memory is short.
+  /// Computes L. @throws NotSolved where K is not positive definite in rounded arithmetic,
+  /// NotEnoughMemory
   void factorise();
 
   /// K x

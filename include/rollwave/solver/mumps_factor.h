@@ -37,7 +37,7 @@ public:
 
   /// Computes the factors and S. If MUMPS asks for more workspace, it gets twice as much.
   /// @param workspace percents of the estimated workspace to be added
-  /// @throws NotSolved when K is not positive definite, NotEnoughMemory
+  /// @throws NotSolved where K_ii is not positive definite in rounded arithmetic, NotEnoughMemory
   void factorise(int workspace = 20);
 
   /// x with K_ii x_i = rhs_i and x_c = 0, both on rank 0; the other ranks pass an empty vector.

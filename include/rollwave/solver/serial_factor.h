@@ -27,7 +27,7 @@ public:
            const dealii::FullMatrix<double>& cell_matrix) override;
   std::unique_ptr<const SparseFactor> factorise(RunStatistics& statistics) override;
 
-  /// What has been added, in the order of elimination.
+  /// The entries added so far, in the order of elimination.
   const LowerTriplets& entries() const { return triplets; }
 
 private:

@@ -12,12 +12,14 @@ namespace rollwave {
 /// Points in x and y, the latter not a number where there is a gap.
 using Points = std::vector<std::pair<double, double>>;
 
+/// One curve of a panel: its points joined by lines.
 struct Curve {
   std::string title;
   Points points;
   Points marks = {}; ///< further points, shown as open circles
 };
 
+/// A pair of axes with curves.
 struct Panel {
   std::string x_label, y_label;
   std::vector<Curve> curves;

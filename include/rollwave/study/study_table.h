@@ -10,8 +10,9 @@ namespace rollwave {
 /// One line on a run that has ended, for the screen while the study goes on.
 std::string line_of_run(const Study& study, unsigned int run);
 
-/// The runs that have ended, one in each row: scene, varied keys, unknowns N, contact steps, errors
-/// that are known, contact force F, seconds, outcome.
+/// The runs that have ended, one in each row: scene, varied keys, the known quantities with the
+/// flag Shown::scene_table where only keys of the scene vary, otherwise with Shown::table, and
+/// outcome.
 std::string table_as_text(const Study& study);
 
 /// The same as a LaTeX document.
