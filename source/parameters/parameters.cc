@@ -219,29 +219,13 @@ const std::vector<Key>& all_keys() {
   return all;
 }
 
-Parameters read_parameters(const std::vector<Setting>& settings) {
-  Parameters parameters;
+Parameters read_parameters(const std::vector<Setting>& settings, Parameters before) {
+  Parameters parameters = std::move(before);
   for (Setting setting : settings)
     apply(setting, parameters);
   settle_distance_and_load(parameters);
   convert_runs(parameters.study);
   return parameters;
-}
-
-std::vector<RunOptions> read_options(const std::vector<Setting>& shared,
-                                     const std::vector<std::vector<Setting>>& further) {
-  Parameters before;
-  for (Setting setting : shared)
-    apply(setting, before);
-  std::vector<RunOptions> options;
-  for (const std::vector<Setting>& settings : further) {
-    Parameters parameters = before;
-    for (Setting setting : settings)
-      apply(setting, parameters);
-    settle_distance_and_load(parameters);
-    options.push_back(parameters);
-  }
-  return options;
 }
 
 } // namespace rollwave

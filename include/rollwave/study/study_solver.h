@@ -31,7 +31,6 @@ public:
 private:
   void solve(unsigned int number, StudyRun& run);
   Parameters parameters_of_files(const RunPlan& plan, const std::string& files) const;
-  Solution solve_timed(const RunPlan& plan);
   Solution solve_shared(unsigned int number, StudyRun& run);
   std::pair<double, double> widest_zone(unsigned int number) const;
   const std::optional<ExactSolution>& exact_solution(const RunOptions& options, const Scene& scene);
