@@ -2,7 +2,6 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
-#include "rollwave/output/scene_plot.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -187,13 +185,10 @@ Road road_of(const Study& study, unsigned int run) {
           parameters.road.curvature};
 }
 
-/// Pressures over the length along the road if the user has given a material or units, otherwise
-/// over the angle.
+/// Pressures over the length along the road.
 Panel profile_panel(const Study& study) {
   const Units units = study.units();
-  const bool is_length = has_own_units(units);
-  Panel panel{is_length ? "length along the road" + units.in_brackets(Quantity::length)
-                        : "angle from the lowest point [rad]",
+  Panel panel{"length along the road" + units.in_brackets(Quantity::length),
               "contact pressure" + units.in_brackets(Quantity::pressure),
               {}};
   for (unsigned int run = 0; run < study.runs.size(); ++run)
@@ -201,8 +196,7 @@ Panel profile_panel(const Study& study) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
       for (const auto& [z, pressure] : study.runs[run]->pressure)
         panel.curves.back().points.emplace_back(
-            is_length ? road_of(study, run).arc_length(from_lowest_point(z)) : from_lowest_point(z),
-            pressure);
+            road_of(study, run).arc_length(from_lowest_point(z)), pressure);
     }
   return panel;
 }
