@@ -31,17 +31,6 @@ double shown_angle(const Scene& scene, const Result& result) {
   return std::max(std::min(1.5 * farther, most), 1.02 * farther);
 }
 
-/// The depth of the ends of contact below the lowest point of the surface in contact, in units of
-/// b: on a small drum they lie far below it.
-double depth_of_ends(const Scene& scene, const Result& result) {
-  double depth = 0;
-  if (const auto& ends = result.contact.ends)
-    for (const double z : {ends->first, ends->second})
-      depth = std::max(depth, (scene.outer_radius + scene.phi(z)) * std::cos(from_lowest_point(z)) -
-                                  scene.road.distance);
-  return depth / scene.outer_radius;
-}
-
 /// The length along the road, in the user's units, up to the angle @p x from the lowest point.
 double abscissa(const Scene& scene, double x) {
   return scene.road.arc_length(x) * scene.units.length;
@@ -168,11 +157,9 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
-  // The frame of the zoom has 0.40 of the width and 0.25 of the height, of which 0.36 lie below
-  // the lowest point of contact.
+  // The frame of the zoom has 0.40 of the width and 0.25 of the height.
   const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
-               zoom = std::min(
-                   1., std::max(angle, 1.6 * depth_of_ends(scene, result) / (0.36 * 2 * ratio)));
+               zoom = std::min(1., angle);
   std::ostringstream script;
   script.precision(12);
   write_data(script, scene, result);
