@@ -178,13 +178,6 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-/// The road of a run that has ended, in the user's units.
-Road road_of(const Study& study, unsigned int run) {
-  const RunOptions& parameters = study.plans[run].parameters;
-  return {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
-          parameters.road.curvature};
-}
-
 /// Pressures over the length along the road.
 Panel profile_panel(const Study& study) {
   const Units units = study.units();
@@ -194,9 +187,11 @@ Panel profile_panel(const Study& study) {
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
+      const RunOptions& parameters = study.plans[run].parameters;
+      const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
+                         parameters.road.curvature}; // in the user's units
       for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(
-            road_of(study, run).arc_length(from_lowest_point(z)), pressure);
+        panel.curves.back().points.emplace_back(road.arc_length(from_lowest_point(z)), pressure);
     }
   return panel;
 }

@@ -45,9 +45,9 @@ bool have_same_force(const RunOptions& one, const RunOptions& other) {
 }
 
 /// The value for a key, computed when it is first asked for.
-template <typename Key, typename Value, typename Compute>
-const Value& known_or_computed(std::vector<std::pair<Key, Value>>& known, const Key& key,
-                               const Compute& compute) {
+template <typename Known, typename Compute>
+const auto& known_or_computed(Known& known, const typename Known::value_type::first_type& key,
+                              const Compute& compute) {
   const auto entry =
       std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == key; });
   return entry != known.end() ? entry->second : known.emplace_back(key, compute()).second;
@@ -145,11 +145,18 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
   Result& result = solution->result;
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));
+  const Scene& scene = solution->scene;
+  const auto& [cylinder, road, material] =
+      std::tie(plan.parameters.cylinder, plan.parameters.road, plan.parameters.material);
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(plan.parameters, solution->scene)) {
+    if (const auto& exact =
+            known_or_computed(exact_solutions, {cylinder, road, material, scene.road.distance},
+                              [&] { return find_exact_solution(scene); })) {
       result.errors = measure_true_errors(*solution, *exact);
-      if (solution->scene.load)
-        result.errors->exact_distance = exact_distance(plan.parameters, solution->scene);
+      if (scene.load)
+        result.errors->exact_distance = known_or_computed(
+            exact_distances, {cylinder, road, material, 0}, // the same on all meshes
+            [&] { return find_exact_distance(scene); });
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
@@ -157,8 +164,8 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
     run.remarks =
         write_results(directory / run.files, parameters_of_files(plan, run.files), *solution)
             .remarks;
-  run.values = values_of(result, solution->scene.units);
-  run.pressure = pressure_of(result, solution->scene.units);
+  run.values = values_of(result, scene.units);
+  run.pressure = pressure_of(result, scene.units);
   run.failure = shortfall_text(result);
   run.remarks.insert(run.remarks.begin(), result.remarks.begin(), result.remarks.end());
 }
@@ -172,17 +179,6 @@ Parameters StudySolver::parameters_of_files(const RunPlan& plan, const std::stri
   Parameters parameters = read_parameters(settings);
   parameters.file = study.file;
   return parameters;
-}
-
-std::optional<double> StudySolver::exact_distance(const RunOptions& options, const Scene& scene) {
-  const SceneKey key = {options.cylinder, options.road, options.material, 0};
-  return known_or_computed(exact_distances, key, [&] { return find_exact_distance(scene); });
-}
-
-const std::optional<ExactSolution>& StudySolver::exact_solution(const RunOptions& options,
-                                                                const Scene& scene) {
-  const SceneKey key = {options.cylinder, options.road, options.material, scene.road.distance};
-  return known_or_computed(exact_solutions, key, [&] { return find_exact_solution(scene); });
 }
 
 } // namespace rollwave
