@@ -27,9 +27,7 @@ namespace rollwave {
 
 namespace {
 
-/// @param joining_command that takes the parts of a study together
 void run_and_report_study(Study& study, const Parameters& parameters,
-                          const std::string& joining_command,
                           const std::vector<std::filesystem::path>& older, MPI_Comm communicator,
                           std::ostream& out) {
   out << version_text() << "\n\n";
@@ -37,7 +35,8 @@ void run_and_report_study(Study& study, const Parameters& parameters,
   if (study.part)
     out << "\nPart " << study.part->number << " of " << study.part->count << ": " << n_made
         << " runs made, " << study.n_ended() - n_made
-        << " reused. When all parts have ended, this joins them: " << joining_command << std::endl;
+        << " reused. When all parts have ended, the same command without --part joins them."
+        << std::endl;
   else if (process_number(communicator) == 0) {
     out << '\n' << table_as_text(study);
     print_study_notes(out, study);
@@ -114,7 +113,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
-      run_and_report_study(study, parameters, line.joining_command, older, communicator, out);
+      run_and_report_study(study, parameters, older, communicator, out);
     else
       solve_scene(scene, parameters, older, communicator, line.verify, out);
   } catch (const BadValue& value) {

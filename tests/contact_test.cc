@@ -148,7 +148,8 @@ TEST(Uzawa, ConvergesBelowTheLargestRhoAndReportsItBeyond) {
 TEST(Uzawa, DivergesWhateverTheTolerance) {
   Prepared scene(with(paper_scenes()[0].parameters(),
                       {"Mesh/Degree=1", "Mesh/Radial cells=3", "Mesh/Angular cells=36"}));
-  const ContactSolution exact = active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
+  const ContactSolution exact =
+      active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
   const double largest = 2 / largest_compliance(scene.equations, scene.problem, exact.active);
   for (const double rho : {1.001 * largest, 1.1 * largest, 20., 1e9, 1e300})
     for (const UzawaStop stop : {UzawaStop::gap, UzawaStop::change})

@@ -29,11 +29,6 @@ bool run_shell(const std::string& command, std::string& messages) {
   return pclose(pipe) == 0;
 }
 
-/// False for a picture that was cut short, as on a full disk, which gnuplot does not report.
-bool is_complete(const fs::path& svg) {
-  return read_file(svg).find("</svg>") != std::string::npos;
-}
-
 } // namespace
 
 std::string in_single_quotes(const std::string& text) {
@@ -66,7 +61,7 @@ void draw(const std::vector<Picture>& pictures, const fs::path& directory, Writt
     if (run_shell(change_directory + std::to_string(left) + " gnuplot -d -e \"picture='" +
                       file.part().filename().string() + "'\" " + script + " 2>&1",
                   messages) &&
-        is_complete(file.part())) {
+        read_file(file.part()).find("</svg>") != std::string::npos) { // else the disk is full
       written.n_bytes += file.commit();
       written.files.push_back(directory / svg);
     } else

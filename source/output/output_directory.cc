@@ -22,13 +22,6 @@ namespace {
 
 constexpr const char* first_words = "# All parameters of a run of ";
 
-std::string complete_parameters(const Parameters& parameters) {
-  std::ostringstream text;
-  text << first_words << version_text() << ".\n\n";
-  print_parameters(text, parameters.settings);
-  return text.str();
-}
-
 /// True if @p path is the parameter file that was read.
 bool is_input(const Parameters& parameters, const fs::path& path) {
   std::error_code ignored; // where one of them is not there, they differ
@@ -58,10 +51,14 @@ void WrittenFiles::note_older_files(const std::vector<fs::path>& older) {
 void write_parameters(const fs::path& directory, const Parameters& parameters,
                       WrittenFiles& written) {
   const fs::path path = directory / "parameters.prm";
-  if (is_input(parameters, path))
+  if (is_input(parameters, path)) {
     written.remarks.push_back("parameters.prm is the file that was read, and is left as it is");
-  else
-    written.write(path, complete_parameters(parameters));
+    return;
+  }
+  std::ostringstream text;
+  text << first_words << version_text() << ".\n\n";
+  print_parameters(text, parameters.settings);
+  written.write(path, text.str());
 }
 
 void check_own_files(const fs::path& directory, const Parameters& parameters,

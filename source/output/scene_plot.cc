@@ -31,65 +31,38 @@ double shown_angle(const Scene& scene, const Result& result) {
   return std::max(std::min(1.5 * farther, most), 1.02 * farther);
 }
 
-/// The depth of the ends of contact below the lowest point of the surface in contact, in units of
-/// b: on a small drum they lie far below it.
-double depth_of_ends(const Scene& scene, const Result& result) {
-  double depth = 0;
-  if (const auto& ends = result.contact.ends)
-    for (const double z : {ends->first, ends->second})
-      depth = std::max(depth, (scene.outer_radius + scene.phi(z)) * std::cos(from_lowest_point(z)) -
-                                  scene.road.distance);
-  return depth / scene.outer_radius;
-}
-
-/// The number to draw for a length 1 of the scene: in the user's units, or else in units of b.
-double drawn_length(const Scene& scene) {
-  return has_own_units(scene.units) ? scene.units.of(Quantity::length) : 1 / scene.outer_radius;
-}
-
-/// The abscissa of the angle @p x from the lowest point: a length along the road in the user's
-/// units, or else the angle.
+/// The length along the road, in the user's units, up to the angle @p x from the lowest point.
 double abscissa(const Scene& scene, double x) {
-  return has_own_units(scene.units) ? scene.road.arc_length(x) * drawn_length(scene) : x;
+  return scene.road.arc_length(x) * scene.units.length;
 }
 
 /// The title as the inside of a string of gnuplot in single quotes.
 std::string title_of(const Scene& scene, const Result& result) {
-  const double b = scene.outer_radius;
   const Units& units = scene.units;
   const auto in_units = [&](double number, Quantity quantity) {
     return rounded(number * units.of(quantity), 6) + units.after(quantity);
   };
   std::ostringstream title;
   title.precision(4);
-  if (has_own_units(units))
-    title << "a = " << in_units(scene.inner_radius, Quantity::length)
-          << ", b = " << in_units(b, Quantity::length)
-          << ", c = " << in_units(scene.road.distance, Quantity::length)
-          << ", vertical load = " << in_units(result.contact.loads.vertical, Quantity::force)
-          << "'.\"\\n\".'"
+  title << "a = " << in_units(scene.inner_radius, Quantity::length)
+        << ", b = " << in_units(scene.outer_radius, Quantity::length)
+        << ", c = " << in_units(scene.road.distance, Quantity::length)
+        << ", omega / critical = " << scene.angular_velocity * scene.outer_radius
+        << ", vertical load = " << in_units(result.contact.loads.vertical, Quantity::force);
+  if (units.material.is_given())
+    title << "'.\"\n\".'"
           << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
           << ", rho = " << units.material.density << units.after(Quantity::density)
-          << ", width = " << units.material.width << units.after(Quantity::length)
-          << ", omega / critical = " << scene.angular_velocity * b;
-  else
-    title << "omega b = " << scene.angular_velocity * b << ",  c / b = " << scene.road.distance / b
-          << ",  a / b = " << scene.inner_radius / b
-          << ",  F / b = " << result.contact.loads.total / b;
+          << ", width = " << units.material.width << units.after(Quantity::length);
   if (scene.road.curvature != 0)
-    title << ",  kappa b = " << scene.road.curvature * b;
-  title << ";  Q" << result.mesh.degree << ", " << (result.step_length ? "Uzawa" : "active set");
+    title << ", kappa b = " << scene.road.curvature * scene.outer_radius;
+  title << "; Q" << result.mesh.degree << ", " << (result.step_length ? "Uzawa" : "active set");
   return title.str();
-}
-
-std::string pressure_unit_text(const Units& units) {
-  const std::string name = units.in_brackets(Quantity::pressure);
-  return name.empty() && units.material.shear_modulus == 1 ? " / modulus" : name;
 }
 
 /// The data of the panels.
 void write_data(std::ostream& script, const Scene& scene, const Result& result) {
-  const double b = scene.outer_radius, length = drawn_length(scene),
+  const double b = scene.outer_radius, length = scene.units.length,
                pressure_unit = scene.units.of(Quantity::pressure);
   const auto add_point = [&](double r, double z) {
     script << r * length * std::cos(z) << ' ' << r * length * std::sin(z) << '\n';
@@ -182,36 +155,26 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 } // namespace
 
-bool has_own_units(const Units& units) {
-  return units.material.is_given() || !units.material.unit_names.length.empty();
-}
-
 Picture plot_scene(const Scene& scene, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
-  // The frame of the zoom has 0.40 of the width and 0.25 of the height, of which 0.36 lie below
-  // the lowest point of contact.
+  // The frame of the zoom has 0.40 of the width and 0.25 of the height.
   const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
-               zoom = std::min(
-                   1., std::max(angle, 1.6 * depth_of_ends(scene, result) / (0.36 * 2 * ratio)));
+               zoom = std::min(1., angle);
   std::ostringstream script;
   script.precision(12);
   write_data(script, scene, result);
   double largest = 0;
   for (const SurfacePoint& point : result.surface)
     largest = std::max(largest, 1 + point.displacement / scene.outer_radius);
-  const double b = scene.outer_radius, length = drawn_length(scene);
-  const std::string unit =
-      has_own_units(scene.units) ? scene.units.in_brackets(Quantity::length) : " / b";
+  const double b = scene.outer_radius, length = scene.units.length;
+  const std::string unit = scene.units.in_brackets(Quantity::length);
   script << "a = " << scene.inner_radius * length << "\nb = " << b * length
          << "\nc = " << scene.road.distance * length << "\nhalf = 1.08 * b * "
          << std::max(1.15, largest)
          << "\nrange = " << abscissa(scene, std::min(angle, scene.road.tangent_angle()))
-         << "\nabscissa = "
-         << in_single_quotes(has_own_units(scene.units) ? "length along the road" + unit
-                                                        : "angle from the lowest point [rad]")
-         << "\nzoom = b * " << zoom << "\nheight = 2 * zoom * " << ratio
-         << "\nunit = " << in_single_quotes(unit) << "\nends = '"
-         << (result.contact.ends ? "ends of contact" : "")
+         << "\nabscissa = " << in_single_quotes("length along the road" + unit) << "\nzoom = b * "
+         << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
+         << "\nends = '" << (result.contact.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
          << "\nset multiplot title '" << title_of(scene, result) << "'\n"
          << pictures;
@@ -223,7 +186,8 @@ Picture plot_scene(const Scene& scene, const Result& result) {
   script << gap;
   if (!result.contact.ends)
     script << "set yrange [0:1]\nset label 'no contact' at graph 0.5,0.5 center\n";
-  script << "set ylabel " << in_single_quotes("pressure" + pressure_unit_text(scene.units))
+  script << "set ylabel "
+         << in_single_quotes("pressure" + scene.units.in_brackets(Quantity::pressure))
          << " offset -1\n"
          << pressure << "unset multiplot\n";
   return {"scene", script.str(), width, height};

@@ -229,15 +229,8 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
 void report_files(std::ostream& out, const WrittenFiles& written) {
   if (!written.files.empty())
     out << "\nFiles\n";
-  for (const auto& file : written.files) {
-    constexpr double megabyte = 1e6, large = 100;
-    std::error_code error; // set if there is no file
-    const double size = std::filesystem::file_size(file, error) / megabyte;
-    out << "  " << file.string();
-    if (size > large && !error)
-      out << "  (" << std::lround(size) << " MB)";
-    out << '\n';
-  }
+  for (const auto& file : written.files)
+    out << "  " << file.string() << '\n';
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
   if (const std::string picture = first_file(written, ".svg"); !picture.empty()) {

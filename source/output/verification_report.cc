@@ -40,36 +40,34 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
   const Units& units = scene.units;
   TableHandler table;
   const std::string exact_title = scene.load ? "exact at this distance" : "exact";
-  const auto add = [&](const std::string& name, Quantity quantity, double ours, double theirs,
+  const auto add = [&](const std::string& name, const std::string& words, double theirs,
                        double accuracy) {
-    const double unit = units.of(quantity);
-    table.add_value("quantity", name + units.in_brackets(quantity));
+    const ResultQuantity& quantity = result_quantity(name);
+    const double unit = units.of(quantity.quantity), ours = *quantity.value(result);
+    table.add_value("quantity", words + units.in_brackets(quantity.quantity));
     table.add_value("computed", rounded(ours * unit, 12));
     table.add_value(exact_title, rounded(theirs * unit, 12));
     table.add_value("difference", rounded((ours - theirs) * unit, 3));
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };
-  add("force F", Quantity::force, result.contact.loads.total, exact.loads.total,
-      exact.force_accuracy);
-  add("vertical load", Quantity::force, result.contact.loads.vertical, exact.loads.vertical,
-      exact.force_accuracy);
-  if (const auto& load = result.contact.loads.work_conjugate)
-    add("work-conjugate load G", Quantity::force, *load, *exact.loads.work_conjugate,
+  add("contact.force", "force F", exact.loads.total, exact.force_accuracy);
+  add("contact.vertical_load", "vertical load", exact.loads.vertical, exact.force_accuracy);
+  if (result.contact.loads.work_conjugate)
+    add("contact.work_conjugate_load", "work-conjugate load G", *exact.loads.work_conjugate,
         exact.force_accuracy);
-  add("energy J", Quantity::energy, result.energy.value, exact.energy, exact.energy_accuracy);
-  add("a(u, u)", Quantity::energy, result.energy.norm_squared, exact.norm_squared, 0);
-  add("half-width", Quantity::angle, result.contact.half_width(), exact.half_width,
+  add("energy.value", "energy J", exact.energy, exact.energy_accuracy);
+  add("energy.norm_squared", "a(u, u)", exact.norm_squared, 0);
+  add("contact.half_width", "half-width", exact.half_width, exact.half_width_accuracy);
+  add("contact.length", "contact length (nip)", 2 * scene.road.arc_length(exact.half_width),
       exact.half_width_accuracy);
-  add("contact length (nip)", Quantity::length, *result_quantity("contact.length").value(result),
-      2 * scene.road.arc_length(exact.half_width), exact.half_width_accuracy);
-  add("peak pressure", Quantity::pressure, result.contact.peak_pressure, exact.peak_pressure, 0);
-  const auto stiffness = result_quantity("contact.stiffness.vertical_load").value(result);
-  if (exact_stiffness && stiffness && std::isfinite(*stiffness))
-    add("vertical stiffness", Quantity::stiffness, *stiffness, *exact_stiffness, 0);
+  add("contact.peak_pressure", "peak pressure", exact.peak_pressure, 0);
+  const std::string stiffness = "contact.stiffness.vertical_load";
+  if (exact_stiffness && std::isfinite(result_quantity(stiffness).value(result).value_or(NAN)))
+    add(stiffness, "vertical stiffness", *exact_stiffness, 0);
   if (result.errors && result.errors->exact_distance)
-    add("distance c (exact: for the load)", Quantity::length, result.road_distance,
-        *result.errors->exact_distance, 1e-10);
+    add("scene.road_distance", "distance c (exact: for the load)", *result.errors->exact_distance,
+        1e-10);
   out << "\nVerification against the semi-analytic solution";
   if (scene.load)
     out << " at the computed distance " << rounded(result.road_distance * units.length, 9)

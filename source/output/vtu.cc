@@ -24,9 +24,6 @@ namespace {
 
 using Patch = DataOutBase::Patch<2>;
 
-using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
-                                      DataComponentInterpretation::DataComponentInterpretation>>;
-
 /// The names of scalars and of components of vectors.
 std::vector<std::string> field_names(const Solution& solution) {
   const Units& units = solution.scene.units;
@@ -40,12 +37,6 @@ std::vector<std::string> field_names(const Solution& solution) {
   if (solution.certificate)
     names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
   return names;
-}
-
-/// The vectors among them.
-Ranges vectors(const Solution& solution) {
-  return {{4, 5, "displacement_vector" + solution.scene.units.in_brackets(Quantity::length),
-           DataComponentInterpretation::component_is_part_of_vector}};
 }
 
 /// A patch for each cell of this process. Its points are equidistant in (r, z), as VTK's Lagrange
@@ -107,9 +98,13 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 
 /// The cells of this process as one piece of the file; empty without cells.
 std::string piece(const Solution& solution, const DataOutBase::VtkFlags& flags) {
+  const std::string length = solution.scene.units.in_brackets(Quantity::length);
   std::ostringstream out;
   if (const std::vector<Patch> patches = deformed_cells(solution); !patches.empty())
-    DataOutBase::write_vtu_main(patches, field_names(solution), vectors(solution), flags, out);
+    DataOutBase::write_vtu_main(patches, field_names(solution),
+                                {{4, 5, "displacement_vector" + length, // x and y
+                                  DataComponentInterpretation::component_is_part_of_vector}},
+                                flags, out);
   return out.str();
 }
 

@@ -5,7 +5,6 @@
 #include "rollwave/parameters/parameters.h"
 
 #include <boost/algorithm/string/predicate.hpp>
-#include <boost/algorithm/string/replace.hpp>
 
 #include <sstream>
 
@@ -45,21 +44,6 @@ StudyPart parse_part(const std::string& text) {
     return part;
   throw BadInput("--part " + in_quotes(text) +
                  " is not of the form K/N with 1 <= K <= N, as in --part 1/4");
-}
-
-/// The call for a shell, without the option --part and its value.
-std::string command_without_part(const std::vector<std::string>& arguments) {
-  std::string command = "rollwave";
-  for (auto argument = arguments.begin(); argument != arguments.end(); ++argument)
-    if (*argument == "--part")
-      ++argument;
-    else if (boost::algorithm::starts_with(*argument, "--part="))
-      continue;
-    else if (argument->find_first_of(" \t'\"\\$`&|;<>()*?[]#~{}!") == std::string::npos)
-      command += ' ' + *argument;
-    else
-      command += " '" + boost::algorithm::replace_all_copy(*argument, "'", "'\\''") + '\'';
-  return command;
 }
 
 } // namespace
@@ -105,8 +89,6 @@ CommandLine read_command_line(const std::vector<std::string>& arguments) {
   }
   if (line.action == CommandLine::Action::run && line.file.empty())
     throw BadInput("no parameter file given\n\n" + usage());
-  if (line.part)
-    line.joining_command = command_without_part(arguments);
   return line;
 }
 

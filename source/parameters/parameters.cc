@@ -21,11 +21,11 @@ constexpr Range positive = {tiny, huge}, any_number = {-huge, huge};
 void declare_cylinder(Section<CylinderOptions> keys) {
   keys.add("Inner radius", &CylinderOptions::inner_radius, positive,
            "Radius a of the rigid hub: a length, greater than 0 and at least 1e-150 b.",
-           {Affects::mesh | Affects::titles, "a", Quantity::length});
+           {Affects::titles, "a", Quantity::length});
   // Energies have the square of the unit of length.
   keys.add("Outer radius", &CylinderOptions::outer_radius, {1e-151, 1e151},
            "Radius b of the undeformed cylinder: a length from 1e-151 to 1e151, greater than a.",
-           {Affects::mesh | Affects::titles, "b", Quantity::length});
+           {Affects::titles, "b", Quantity::length});
   keys.add("Angular velocity", &CylinderOptions::angular_velocity, {0, huge},
            "Angular velocity omega of rolling: radians per unit of time, from 0 to the critical "
            "speed, (mu/rho)^(1/2)/b with mu and rho of section Material.",
@@ -100,7 +100,7 @@ void declare_road(Section<RoadOptions> keys) {
       "the force is uniform, the angles at which the surface without contact would penetrate the "
       "road, and two cells more at each end; otherwise the angles at which the road is nearer than "
       "2 b to the axle, which is also the widest zone.",
-      {Affects::mesh, "[z0, z1]"});
+      {0, "[z0, z1]"});
 }
 
 void declare_mesh(Section<RunOptions::Mesh> keys) {
@@ -209,7 +209,7 @@ const std::vector<Key>& all_keys() {
     declare_cylinder({keys, "Cylinder", &Parameters::cylinder, Affects::scene});
     declare_material({keys, "Material", &Parameters::material, Affects::scene});
     declare_road({keys, "Road", &Parameters::road, Affects::scene});
-    declare_mesh({keys, "Mesh", &Parameters::mesh, Affects::mesh});
+    declare_mesh({keys, "Mesh", &Parameters::mesh});
     declare_certificate({keys, "Certificate", &Parameters::certificate});
     declare_contact({keys, "Contact", &Parameters::contact});
     declare_study({keys, "Study", &Parameters::study});
@@ -219,29 +219,13 @@ const std::vector<Key>& all_keys() {
   return all;
 }
 
-Parameters read_parameters(const std::vector<Setting>& settings) {
-  Parameters parameters;
+Parameters read_parameters(const std::vector<Setting>& settings, Parameters before) {
+  Parameters parameters = std::move(before);
   for (Setting setting : settings)
     apply(setting, parameters);
   settle_distance_and_load(parameters);
   convert_runs(parameters.study);
   return parameters;
-}
-
-std::vector<RunOptions> read_options(const std::vector<Setting>& shared,
-                                     const std::vector<std::vector<Setting>>& further) {
-  Parameters before;
-  for (Setting setting : shared)
-    apply(setting, before);
-  std::vector<RunOptions> options;
-  for (const std::vector<Setting>& settings : further) {
-    Parameters parameters = before;
-    for (Setting setting : settings)
-      apply(setting, parameters);
-    settle_distance_and_load(parameters);
-    options.push_back(parameters);
-  }
-  return options;
 }
 
 } // namespace rollwave

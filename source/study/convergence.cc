@@ -18,15 +18,6 @@ namespace rollwave {
 
 namespace {
 
-/// The errors whose orders are reported.
-std::vector<ResultQuantity> errors() {
-  std::vector<ResultQuantity> errors;
-  for (const ResultQuantity& quantity : result_quantities())
-    if (quantity.shown & Shown::orders)
-      errors.push_back(quantity);
-  return errors;
-}
-
 struct Fit {
   double slope, spread;
 };
@@ -71,11 +62,17 @@ std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   return meshes;
 }
 
-/// True if an error is known on all meshes.
-bool is_known(const Study& study, const std::vector<unsigned int>& meshes,
-              const std::string& error) {
-  return std::all_of(meshes.begin(), meshes.end(),
-                     [&](unsigned int run) { return study.value(run, error).value_or(0) > 0; });
+/// The errors that are known on all meshes, and whose orders are reported.
+std::vector<ResultQuantity> known_errors(const Study& study,
+                                         const std::vector<unsigned int>& meshes) {
+  std::vector<ResultQuantity> errors;
+  for (const ResultQuantity& quantity : result_quantities())
+    if ((quantity.shown & Shown::orders) &&
+        std::all_of(meshes.begin(), meshes.end(), [&](unsigned int run) {
+          return study.value(run, quantity.name).value_or(0) > 0;
+        }))
+      errors.push_back(quantity);
+  return errors;
 }
 
 /// True if from each mesh to the next the cells get smaller, or larger, in both directions.
@@ -94,7 +91,8 @@ bool changes_both_directions(const Study& study, const std::vector<unsigned int>
 
 /// The errors on all meshes with their orders from one to the next.
 void print_errors(std::ostream& out, const Study& study, const Family& family,
-                  const std::vector<unsigned int>& meshes) {
+                  const std::vector<unsigned int>& meshes,
+                  const std::vector<ResultQuantity>& errors) {
   dealii::ConvergenceTable table;
   const std::string inverse = family.is_adaptive ? "unknowns^(1/2)" : "1/h";
   for (const unsigned int run : meshes) {
@@ -102,48 +100,42 @@ void print_errors(std::ostream& out, const Study& study, const Family& family,
     table.add_value(inverse, 1 / *abscissa(study, family, run));
   }
   table.set_precision(inverse, 4);
-  for (const ResultQuantity& error : errors()) {
-    const std::string &name = error.name,
-                      title = error.symbol + study.units().in_brackets(error.quantity);
-    if (is_known(study, meshes, name)) {
-      for (const unsigned int run : meshes) {
-        const double value = *study.value(run, name);
-        table.add_value(title,
-                        error.shown & Shown::upper_bound ? std::stod(rounded_up(value, 4)) : value);
-      }
-      table.set_precision(title, 3); // after the first digit
-      table.set_scientific(title, true);
-      table.evaluate_convergence_rates(title, inverse,
-                                       dealii::ConvergenceTable::reduction_rate_log2, 1);
+  for (const ResultQuantity& error : errors) {
+    const std::string title = error.symbol + study.units().in_brackets(error.quantity);
+    for (const unsigned int run : meshes) {
+      const double value = *study.value(run, error.name);
+      table.add_value(title,
+                      error.shown & Shown::upper_bound ? std::stod(rounded_up(value, 4)) : value);
     }
+    table.set_precision(title, 3); // after the first digit
+    table.set_scientific(title, true);
+    table.evaluate_convergence_rates(title, inverse, dealii::ConvergenceTable::reduction_rate_log2,
+                                     1);
   }
   out << table_text(table);
 }
 
 /// The orders over the last four meshes.
 void print_fits(std::ostream& out, const Study& study, const Family& family,
-                std::vector<unsigned int> meshes) {
+                std::vector<unsigned int> meshes, const std::vector<ResultQuantity>& errors) {
   constexpr std::size_t most_meshes = 4;
   meshes.erase(meshes.begin(), meshes.end() - std::min(most_meshes, meshes.size()));
   const auto expected = family.is_adaptive || changes_both_directions(study, meshes)
                             ? study.value(meshes.back(), "error.expected_order")
                             : std::nullopt;
   std::string separator = "Fitted, +- standard error: ";
-  for (const ResultQuantity& error : errors()) {
-    const std::string &name = error.name, title = error.symbol;
-    if (is_known(study, meshes, name)) {
-      std::vector<double> x, y;
-      for (const unsigned int run : meshes) {
-        x.push_back(-std::log(*abscissa(study, family, run)));
-        y.push_back(-std::log(*study.value(run, name)));
-      }
-      const Fit order = fit(x, y);
-      out << separator << title << ' ' << std::setprecision(3) << order.slope << " +- "
-          << std::setprecision(1) << std::round(1000 * order.spread) / 1000 << std::setprecision(6);
-      if (name == "error.exact_relative" && expected)
-        out << " (expected " << *expected << ')';
-      separator = ", ";
+  for (const ResultQuantity& error : errors) {
+    std::vector<double> x, y;
+    for (const unsigned int run : meshes) {
+      x.push_back(-std::log(*abscissa(study, family, run)));
+      y.push_back(-std::log(*study.value(run, error.name)));
     }
+    const Fit order = fit(x, y);
+    out << separator << error.symbol << ' ' << std::setprecision(3) << order.slope << " +- "
+        << std::setprecision(1) << std::round(1000 * order.spread) / 1000 << std::setprecision(6);
+    if (error.name == "error.exact_relative" && expected)
+      out << " (expected " << *expected << ')';
+    separator = ", ";
   }
   out << '\n';
 }
@@ -172,11 +164,8 @@ void report_orders(std::ostream& out, const Study& study) {
   bool has_orders = false;
   for (const Family& family : find_families(study)) {
     const auto meshes = meshes_of(study, family);
-    const auto all = errors();
-    const bool has_errors = std::any_of(all.begin(), all.end(), [&](const auto& error) {
-      return is_known(study, meshes, error.name);
-    });
-    if (meshes.size() < 2 || !has_errors)
+    const auto errors = known_errors(study, meshes);
+    if (meshes.size() < 2 || errors.empty())
       continue;
     has_orders = true;
     const std::string x = family.is_adaptive ? "unknowns^(-1/2)" : "h";
@@ -185,9 +174,9 @@ void report_orders(std::ostream& out, const Study& study) {
     if (meshes.size() < family.runs.size())
       out << ", only meshes whose " << x << " differs by a factor of " << least_ratio << " or more";
     out << '\n';
-    print_errors(out, study, family, meshes);
+    print_errors(out, study, family, meshes, errors);
     if (meshes.size() > 2)
-      print_fits(out, study, family, meshes);
+      print_fits(out, study, family, meshes, errors);
   }
   if (has_orders && study.has("error.exact_relative"))
     out << (study.has("error.certified_relative") ? "certified and error are" : "error is")

@@ -64,7 +64,7 @@ WrittenFiles write_study(const Parameters& parameters, const Study& study,
   const bool is_solved = std::any_of(study.runs.begin(), study.runs.end(),
                                      [](const auto& run) { return run && run->is_solved(); });
   if (parameters.wants(OutputFile::plot) && is_solved)
-    draw_study(study, directory, written);
+    draw_study(parameters, study, written);
   std::set<std::string> own;
   for (const auto& run : study.runs)
     if (run)

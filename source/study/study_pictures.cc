@@ -2,7 +2,6 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
-#include "rollwave/output/scene_plot.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
@@ -12,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -48,37 +46,25 @@ bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
 }
 
-/// The keys of which runs have different values.
-std::set<std::string> differing_keys(const Study& study) {
-  std::map<std::string, std::map<std::string, std::size_t>> n_runs; // by key and value
+/// The values that all runs share: of the keys that titles name, and of others of the scene that
+/// are not at their defaults.
+std::string title_of(const Study& study, const std::vector<Setting>& settings) {
+  std::set<std::string> differing; // keys
   for (const RunPlan& plan : study.plans)
-    for (const auto& settings : {plan.scene_settings, plan.varied})
-      for (const Setting& setting : settings)
-        ++n_runs[setting.path()][setting.value];
-  std::set<std::string> keys;
-  for (const auto& [key, values] : n_runs)
-    if (values.begin()->second < study.plans.size())
-      keys.insert(key);
-  if (keys.count("Road/Distance") + keys.count("Road/Load") > 0) // they replace each other
-    keys.insert({"Road/Distance", "Road/Load"});
-  return keys;
-}
-
-/// The values that all runs share: the keys that titles name, and others of the scene that are not
-/// at their defaults.
-std::string title_of(const Study& study) {
-  const RunPlan& plan = study.plans.front();
-  const std::set<std::string> differing = differing_keys(study);
+    for (const auto& of_run : {plan.scene_settings, plan.varied})
+      for (const Setting& setting : of_run)
+        differing.insert(setting.path());
+  if (differing.count("Road/Distance") + differing.count("Road/Load") > 0) // of which one is none
+    differing.insert({"Road/Distance", "Road/Load"});
   std::string title;
   for (const Key& key : all_keys()) {
-    const Setting setting{key.section, key.name, value_of(key, study.settings), ""};
-    const bool is_shared = differing.count(setting.path()) == 0;
+    const Setting setting{key.section, key.name, value_of(key, settings), ""};
     const bool is_named = (key.affects & Affects::titles) ||
                           ((key.affects & Affects::scene) && setting.value != key.default_value);
-    if (is_shared && is_named && setting.value != "none")
+    if (is_named && differing.count(key.path()) == 0 && setting.value != "none")
       title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
   }
-  return title + (most_cycles(plan.parameters.mesh) > 0 ? ", adaptive" : "");
+  return title + (most_cycles(study.plans.front().parameters.mesh) > 0 ? ", adaptive" : "");
 }
 
 /// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
@@ -192,35 +178,26 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
   return panel;
 }
 
-/// The road of a run that has ended, in the user's units.
-Road road_of(const Study& study, unsigned int run) {
-  const RunOptions& parameters = study.plans[run].parameters;
-  return {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
-          parameters.road.curvature};
-}
-
-/// Pressures over the length along the road if the user has given a material or units, otherwise
-/// over the angle.
+/// Pressures over the length along the road.
 Panel profile_panel(const Study& study) {
   const Units units = study.units();
-  const bool is_length = has_own_units(units);
-  Panel panel{is_length ? "length along the road" + units.in_brackets(Quantity::length)
-                        : "angle from the lowest point [rad]",
+  Panel panel{"length along the road" + units.in_brackets(Quantity::length),
               "contact pressure" + units.in_brackets(Quantity::pressure),
               {}};
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
       panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
+      const RunOptions& parameters = study.plans[run].parameters;
+      const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
+                         parameters.road.curvature}; // in the user's units
       for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(
-            is_length ? road_of(study, run).arc_length(from_lowest_point(z)) : from_lowest_point(z),
-            pressure);
+        panel.curves.back().points.emplace_back(road.arc_length(from_lowest_point(z)), pressure);
     }
   return panel;
 }
 
 /// The main_result() over two keys of the scene that have numbers; nullopt for other studies.
-std::optional<Picture> map_of_result(const Study& study) {
+std::optional<Picture> map_of_result(const Study& study, const std::string& title) {
   if (study.first_key_of_part.size() != 2 || !study.plans.front().scene.empty())
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
@@ -240,7 +217,7 @@ std::optional<Picture> map_of_result(const Study& study) {
     std::sort(line.begin(), line.end());
   std::sort(lines.begin(), lines.end());
   const Units units = study.units();
-  return plot_map(title_of(study), axis_label(varied[0], units),
+  return plot_map(title, axis_label(varied[0], units),
                   axis_label(varied[study.first_key_of_part[1]], units), label_of(study, result),
                   lines);
 }
@@ -252,8 +229,8 @@ std::vector<double> fastest_numbers(const Study& study) {
                                          : numbers_of(study, study.first_key_of_part.back());
 }
 
-void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written) {
-  const std::string title = title_of(study);
+void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& written) {
+  const std::string title = title_of(study, parameters.settings);
   std::vector<Picture> pictures;
   const auto add = [&](const std::string& name, std::vector<Panel> panels) {
     panels.erase(std::remove_if(panels.begin(), panels.end(), is_empty), panels.end());
@@ -262,7 +239,7 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
   };
   const auto x = fastest_numbers(study);
   const bool is_over_method = !x.empty() && !is_of_scene(fastest_key(study, study.plans.front()));
-  if (const auto map = map_of_result(study))
+  if (const auto map = map_of_result(study, title))
     pictures.push_back(*map);
   if (!is_over_method) {
     if (!x.empty())
@@ -285,11 +262,10 @@ void draw_study(const Study& study, const std::filesystem::path& directory, Writ
   const bool is_adaptive =
       std::any_of(study.plans.begin(), study.plans.end(),
                   [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps")) &&
-      study.varies("iterations.contact"))
+  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps")))
     add("study", {{x_label_of(study), "contact steps",
                    curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
-  draw(pictures, directory, written);
+  draw(pictures, parameters.output.directory, written);
 }
 
 } // namespace rollwave

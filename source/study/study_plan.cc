@@ -1,14 +1,16 @@
 #include "rollwave/study/study_plan.h"
 
+#include "rollwave/base/version.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
-#include "rollwave/study/run_digest.h"
 
+#include <boost/algorithm/string/erase.hpp>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <utility>
 
 namespace rollwave {
@@ -42,6 +44,26 @@ std::vector<Setting> shared_settings(const Parameters& study,
   return shared;
 }
 
+/// See RunPlan::digest. @param run its parameters @param number of the run, from 0 on
+std::string digest_of(const Parameters& study, const Parameters& run, unsigned int number) {
+  std::map<std::string, std::string> values;
+  for (const Setting& setting : run.settings)
+    values[setting.path()] = setting.value; // the last one holds
+  const bool has_files = !study.study.files_of_each_run.empty();
+  std::string text = study.study.true_errors ? "with true errors\n" : "\n";
+  for (const Key& key : all_keys())
+    if (key.section != "Study" && (key.section != "Output" || has_files)) {
+      const auto value = values.find(key.path());
+      text += (value != values.end() ? value->second : key.default_value) + '\n';
+    }
+  boost::algorithm::erase_all(text, " "); // which expressions may have anywhere
+  if (has_files)
+    text += directory_of_run(number) + '\n';
+  for (const OutputFile kind : study.study.files_of_each_run)
+    text += std::to_string(static_cast<int>(kind)) + '\n';
+  return digest_with_build(text);
+}
+
 /// Refuses a varied key that belongs to Uzawa's method where no run uses that.
 void check_method(const std::vector<RunPlan>& plans) {
   const bool has_uzawa = std::any_of(plans.begin(), plans.end(), [](const RunPlan& plan) {
@@ -64,18 +86,19 @@ std::string lower_case_name(const Key& key) {
 std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   const StudyOptions& study = parameters.study;
   const std::vector<NamedScene> single(1);
-  const auto varied = combinations(study.vary);
+  const auto choices = combinations(study.vary);
   std::vector<RunPlan> plans;
   for (const NamedScene& scene : study.scenes.empty() ? single : study.scenes) {
-    const auto options = read_options(shared_settings(parameters, scene.settings), varied);
-    for (unsigned int i = 0; i < varied.size(); ++i) {
-      plans.push_back({scene.name, scene.settings, varied[i], {}, options[i], {}});
+    const Parameters shared = read_parameters(shared_settings(parameters, scene.settings));
+    for (const std::vector<Setting>& varied : choices) {
+      const Parameters run = read_parameters(varied, shared);
       try {
-        check_simulation(make_scene(options[i]), options[i]);
+        check_simulation(make_scene(run), run);
       } catch (const BadValue& value) {
-        throw BadInput(refusal(settings_of_run(parameters, plans.back()), value));
+        throw BadInput(refusal(run.settings, value));
       }
-      plans.back().digest = digest_of_run(options[i], study.true_errors);
+      plans.push_back(
+          {scene.name, scene.settings, varied, {}, run, digest_of(parameters, run, plans.size())});
     }
   }
   check_method(plans);

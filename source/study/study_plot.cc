@@ -3,9 +3,7 @@
 #include "rollwave/base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <sstream>
 
@@ -22,21 +20,6 @@ std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
 }
 
-/// @p text with at most five digits in its decimal numbers, as legends have room for.
-std::string with_short_numbers(const std::string& text) {
-  std::string shortened;
-  for (const char* rest = text.c_str(); *rest != 0;) {
-    char* end = nullptr;
-    const double number =
-        std::isdigit(static_cast<unsigned char>(*rest)) ? std::strtod(rest, &end) : 0;
-    const std::string word(rest, end ? end - rest : 1);
-    const bool is_long = word.size() > 6 && word.find('.') != std::string::npos;
-    shortened += is_long ? rounded(number, 5) : word;
-    rest += word.size();
-  }
-  return shortened;
-}
-
 /// The size of letters with which a line of @p n_letters has room in @p width, at most @p largest.
 /// A legend that is too wide is not drawn at all.
 unsigned int size_of_letters(double n_letters, double width, unsigned int largest) {
@@ -45,9 +28,8 @@ unsigned int size_of_letters(double n_letters, double width, unsigned int larges
 }
 
 std::string title_in_room(const std::string& title, unsigned int width) {
-  const std::string text = with_short_numbers(title);
-  return in_single_quotes(text) + " font '," +
-         std::to_string(size_of_letters(text.size(), width, 12)) + '\'';
+  return in_single_quotes(title) + " font '," +
+         std::to_string(size_of_letters(title.size(), width, 12)) + '\'';
 }
 
 /// The name of a block of data of curve @p i in panel @p k.
@@ -79,17 +61,6 @@ std::string style(unsigned int curve, std::size_t n_points) {
          std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
-/// True if all points have whole numbers in x that fit as labels of an axis, such as numbers of
-/// refinements.
-bool has_few_integers(const Panel& panel) {
-  constexpr double most = 12;
-  for (const Curve& curve : panel.curves)
-    for (const auto& [x, y] : curve.points)
-      if (x != std::round(x) || std::abs(x) > most)
-        return false;
-  return true;
-}
-
 /// The range of y: at least a per cent of its values, so that noise does not fill the panel.
 std::string y_range(const Panel& panel) {
   double least = std::numeric_limits<double>::max(), largest = -least;
@@ -119,7 +90,6 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
   script << (panel.has_log_x ? "\nset logscale x\nset offsets 0, 0, 0, 0\n"
                              : "\nunset logscale x\nset offsets graph 0.03, graph 0.03, 0, 0\n"
                                "set autoscale xfix\n")
-         << (!panel.has_log_x && has_few_integers(panel) ? "set xtics 1\n" : "set xtics autofreq\n")
          << (panel.has_log_y ? "set" : "unset") << " logscale y\nset format '%g'\n";
   if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
     script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";
@@ -132,10 +102,9 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
   };
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    add(block("curve", k, i), i, style(i, curve.points.size()), with_short_numbers(curve.title));
+    add(block("curve", k, i), i, style(i, curve.points.size()), curve.title);
     if (!curve.marks.empty())
-      add(block("marks", k, i), i, "points pointtype 6 pointsize 1.4",
-          with_short_numbers(curve.title) + " published");
+      add(block("marks", k, i), i, "points pointtype 6 pointsize 1.4", curve.title + " published");
   }
   for (unsigned int i = 0; i < panel.slopes.size(); ++i)
     script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]

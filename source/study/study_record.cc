@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace rollwave {
 
@@ -42,17 +41,6 @@ bool Study::is_of_scenes() const {
   return std::all_of(varied.begin(), varied.end(), [](const Setting& setting) {
     return key_of(setting).affects & Affects::scene;
   });
-}
-
-bool Study::varies(const std::string& name) const {
-  double least = std::numeric_limits<double>::infinity(), largest = -least;
-  for (unsigned int run = 0; run < runs.size(); ++run)
-    if (const auto known = value(run, name)) {
-      least = std::min(least, *known);
-      largest = std::max(largest, *known);
-    }
-  constexpr double tolerance = 1e-8; // a given load is met to 1e-9
-  return largest - least > tolerance * std::max(std::abs(least), std::abs(largest));
 }
 
 std::map<std::string, double> values_of(const Result& result, const Units& units) {

@@ -6,7 +6,6 @@
 #include "rollwave/base/text.h"
 #include "rollwave/output/output_directory.h"
 #include "rollwave/output/progress_report.h"
-#include "rollwave/study/run_digest.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_solver.h"
 #include "rollwave/study/study_table.h"
@@ -25,56 +24,29 @@ namespace {
 
 const std::string rows_name = "study", profiles_name = "study-profiles"; ///< of the tables
 
-/// A table of a study: that of the whole study or of its part, to which rows are added.
-struct Table {
-  fs::path path;
-  std::string header;
+/// The path of a table of a study, or of its part.
+fs::path table_path(const fs::path& directory, std::string name, const Study& study) {
+  if (study.part)
+    name +=
+        ".part-" + std::to_string(study.part->number) + "-of-" + std::to_string(study.part->count);
+  return directory / (name + ".csv");
+}
 
-  Table(const fs::path& directory, std::string name, const Study& study, std::string header)
-      : header(std::move(header)) {
-    if (study.part)
-      name += ".part-" + std::to_string(study.part->number) + "-of-" +
-              std::to_string(study.part->count);
-    path = directory / (name + ".csv");
-  }
-
-  void append(const std::string& rows) const {
-    std::error_code ignored;
-    const bool is_new = !fs::exists(path, ignored) || fs::is_empty(path, ignored);
-    append_to_file(path, (is_new ? header : "") + rows);
-  }
-
-  /// After a stop within a row, the next one begins a line.
-  void end_last_line() const {
-    if (const std::string text = read_file(path); !text.empty() && text.back() != '\n')
-      append_to_file(path, "\n");
-  }
-};
-
-struct Tables {
-  Table rows, profiles;
-
-  Tables(const fs::path& directory, const Study& study)
-      : rows(directory, rows_name, study, csv_header(study)),
-        profiles(directory, profiles_name, study, profiles_header(study)) {}
-};
+/// Adds rows to a table, which may be removed while the study runs. After a stop within a row they
+/// begin in its line, which read_csv() and read_profiles() allow for.
+void append(const fs::path& table, const std::string& header, const std::string& rows) {
+  std::error_code ignored;
+  const bool is_new = !fs::exists(table, ignored) || fs::is_empty(table, ignored);
+  append_to_file(table, (is_new ? header : "") + rows);
+}
 
 /// The rows of the runs that have ended, in their order.
-std::string all_rows(const Study& study) {
+std::string all_rows(const Study& study, std::string (*rows_of)(const Study&, unsigned int run)) {
   std::string rows;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run])
-      rows += csv_row(study, run);
+      rows += rows_of(study, run);
   return rows;
-}
-
-void write_tables(const Study& study, const Tables& tables) {
-  std::string profiles = tables.profiles.header;
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run])
-      profiles += profile_rows(study, run);
-  write_file(tables.profiles.path, profiles);
-  write_file(tables.rows.path, tables.rows.header + all_rows(study));
 }
 
 /// The texts of the tables that all parts and the whole study have under a name.
@@ -88,59 +60,45 @@ std::string read_tables(const fs::path& directory, const std::string& name) {
   return text + read_file(directory / (name + ".csv"));
 }
 
-/// True if a run needs no files of its own, or all of them are there.
-bool has_own_files(const Study& study, unsigned int run, const Parameters& parameters) {
-  const fs::path directory = directory_of_run(run);
-  return parameters.study.files_of_each_run.empty() ||
-         (study.runs[run]->files == directory &&
-          read_file(parameters.output.directory / directory / "parameters.prm")
-                  .find(digest_of_files(study.plans[run].digest, parameters)) != std::string::npos);
-}
-
-/// Takes over the runs that earlier calls have solved.
-void take_over(Study& study, const Parameters& parameters, MPI_Comm communicator) {
-  const fs::path directory = parameters.output.directory;
+/// Takes over the runs that earlier calls have solved, if the directories of their files are there.
+void take_over(Study& study, const fs::path& directory, MPI_Comm communicator) {
   const bool is_first = process_number(communicator) == 0;
   if (is_first) {
     read_csv(read_tables(directory, rows_name), study);
     read_profiles(read_tables(directory, profiles_name), study);
-    for (unsigned int run = 0; run < study.runs.size(); ++run)
-      if (study.runs[run] && !has_own_files(study, run, parameters))
-        study.runs[run].reset();
+    for (auto& run : study.runs)
+      if (run && !run->files.empty() && !fs::exists(directory / run->files))
+        run.reset();
   }
-  const std::string rows = broadcast(communicator, is_first ? all_rows(study) : "");
+  const std::string rows = broadcast(communicator, is_first ? all_rows(study, csv_row) : "");
   if (!is_first)
     read_csv(rows, study);
 }
 
 /// Makes the runs that are missing, equal ones once, and counts them in @p n_made. False when the
 /// user has interrupted it.
-bool make_runs(Study& study, const Parameters& parameters, const Tables& tables, std::ostream& out,
-               MPI_Comm communicator, unsigned int& n_made) {
+bool make_runs(Study& study, const Parameters& parameters, std::ostream& out, MPI_Comm communicator,
+               unsigned int& n_made) {
+  const fs::path directory = parameters.output.directory;
   std::vector<unsigned int> missing;
   for (const unsigned int run : study.wanted_runs())
     if (!study.runs[run])
       missing.push_back(run);
   if (missing.empty())
     return true;
-  const bool is_first = process_number(communicator) == 0;
-  if (is_first) {
-    tables.rows.end_last_line();
-    tables.profiles.end_last_line();
-  }
   const dealii::Timer timer;
   std::map<std::string, unsigned int> made; // by their digests
   try {
-    StudySolver solver(study.plans, parameters, parameters.output.directory, report_long_runs(out),
-                       communicator);
+    StudySolver solver(study.plans, parameters, directory, report_long_runs(out), communicator);
     for (unsigned int i = 0; i < missing.size(); ++i) {
       const unsigned int run = missing[i];
       const auto [equal, is_other] = made.emplace(study.plans[run].digest, run);
-      if (is_other || !parameters.study.files_of_each_run.empty()) {
+      if (is_other) {
         study.runs[run] = solver.solve(run);
-        if (is_first) {
-          tables.profiles.append(profile_rows(study, run));
-          tables.rows.append(csv_row(study, run));
+        if (process_number(communicator) == 0) {
+          append(table_path(directory, profiles_name, study), profiles_header(study),
+                 profile_rows(study, run));
+          append(table_path(directory, rows_name, study), csv_header(study), csv_row(study, run));
         }
         ++n_made;
       } else
@@ -173,7 +131,6 @@ Study plan_study(const Parameters& parameters, const std::optional<StudyPart>& p
     throw BadInput("--part: the study has " + std::to_string(study.plans.size()) +
                    " runs, which cannot be divided into " + std::to_string(part->count) + " parts");
   study.part = part;
-  study.settings = read_parameters(settings_of_run(parameters, study.plans.front())).settings;
   unsigned int n_keys = 0;
   for (const Variation& variation : parameters.study.vary) {
     study.first_key_of_part.push_back(n_keys);
@@ -197,15 +154,18 @@ unsigned int run_study(Study& study, const Parameters& parameters, std::ostream&
     for (const std::string& remark : written.remarks)
       out << "Note: " << remark << '\n';
   }
-  take_over(study, parameters, communicator);
+  take_over(study, directory, communicator);
   if (const auto n_earlier = study.n_ended(); n_earlier > 0)
     out << n_earlier << " of " << n_wanted << " runs are reused\n";
-  const Tables tables(directory, study);
   unsigned int n_made = 0;
-  const bool is_complete = make_runs(study, parameters, tables, out, communicator, n_made);
+  const bool is_complete = make_runs(study, parameters, out, communicator, n_made);
   const auto n_ended = study.n_ended();
-  if (is_first && n_ended > 0)
-    write_tables(study, tables);
+  if (is_first && n_ended > 0) {
+    write_file(table_path(directory, profiles_name, study),
+               profiles_header(study) + all_rows(study, profile_rows));
+    write_file(table_path(directory, rows_name, study),
+               csv_header(study) + all_rows(study, csv_row));
+  }
   if (!is_complete) {
     if (n_ended == 0)
       throw Interrupted("interrupted before the first run was made");

@@ -1,6 +1,5 @@
 #include "rollwave/study/study_solver.h"
 
-#include "rollwave/base/atomic_file.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
@@ -8,7 +7,6 @@
 #include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/study/run_digest.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 
@@ -47,20 +45,12 @@ bool have_same_force(const RunOptions& one, const RunOptions& other) {
 }
 
 /// The value for a key, computed when it is first asked for.
-template <typename Key, typename Value, typename Compute>
-const Value& known_or_computed(std::vector<std::pair<Key, Value>>& known, const Key& key,
-                               const Compute& compute) {
+template <typename Known, typename Compute>
+const auto& known_or_computed(Known& known, const typename Known::value_type::first_type& key,
+                              const Compute& compute) {
   const auto entry =
       std::find_if(known.begin(), known.end(), [&](const auto& pair) { return pair.first == key; });
   return entry != known.end() ? entry->second : known.emplace_back(key, compute()).second;
-}
-
-/// Adds the digest to parameters.prm, by which a later call sees that all files are there; not if
-/// that is the file that was read.
-void mark_complete(const WrittenFiles& written, const std::string& digest) {
-  for (const std::filesystem::path& file : written.files)
-    if (file.filename() == "parameters.prm")
-      append_to_file(file, "\n# The files of this run are complete: " + digest + "\n");
 }
 
 } // namespace
@@ -99,24 +89,6 @@ StudyRun StudySolver::solve(unsigned int number) {
   return run;
 }
 
-/// Solves a run whose time is compared with others. A short one is solved three times and the
-/// fastest counts: the first includes page faults and the start of threads.
-Solution StudySolver::solve_timed(const RunPlan& plan) {
-  solution.reset(); // frees its memory first
-  const Scene scene = make_scene(plan.parameters);
-  const auto seconds = [this](const Solution& solution) {
-    return Utilities::MPI::max(solution.result.statistics.total_seconds(), communicator);
-  };
-  std::optional<Solution> fastest = simulate(scene, plan.parameters, communicator, progress);
-  constexpr double short_seconds = 0.2;
-  for (int repetition = 0; repetition < 2 && seconds(*fastest) < short_seconds; ++repetition) {
-    Solution again = simulate(scene, plan.parameters, communicator);
-    if (seconds(again) < seconds(*fastest))
-      fastest.emplace(std::move(again));
-  }
-  return std::move(*fastest);
-}
-
 /// The zone that contains those of this run and of the next ones with the same system.
 std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
   std::pair<double, double> widest = make_scene(plans[number].parameters).zone();
@@ -129,7 +101,8 @@ std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
   return widest;
 }
 
-/// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
+/// Solves a run with the mesh and the matrices of the run before, as far as it has the same and no
+/// true errors are asked for.
 Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
   const RunOptions& parameters = plans[number].parameters;
   const Scene scene = make_scene(parameters);
@@ -139,7 +112,7 @@ Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
   const bool has_mesh = is_shared_with_last(have_same_mesh),
              has_system = is_shared_with_last(have_same_system),
              has_load = has_system && is_shared_with_last(have_same_force),
-             is_followed = number + 1 < plans.size() &&
+             is_followed = !study.study.true_errors && number + 1 < plans.size() &&
                            have_same_mesh(parameters, plans[number + 1].parameters);
   std::optional<Mesh> mesh;
   if (has_mesh) {
@@ -168,27 +141,31 @@ Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
 
 void StudySolver::solve(unsigned int number, StudyRun& run) {
   const RunPlan& plan = plans[number];
-  solution.emplace(study.study.true_errors ? solve_timed(plan) : solve_shared(number, run));
+  solution.emplace(solve_shared(number, run));
   Result& result = solution->result;
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));
+  const Scene& scene = solution->scene;
+  const auto& [cylinder, road, material] =
+      std::tie(plan.parameters.cylinder, plan.parameters.road, plan.parameters.material);
   if (study.study.true_errors)
-    if (const auto& exact = exact_solution(plan.parameters, solution->scene)) {
+    if (const auto& exact =
+            known_or_computed(exact_solutions, {cylinder, road, material, scene.road.distance},
+                              [&] { return find_exact_solution(scene); })) {
       result.errors = measure_true_errors(*solution, *exact);
-      if (solution->scene.load)
-        result.errors->exact_distance = exact_distance(plan.parameters, solution->scene);
+      if (scene.load)
+        result.errors->exact_distance = known_or_computed(
+            exact_distances, {cylinder, road, material, 0}, // the same on all meshes
+            [&] { return find_exact_distance(scene); });
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
-  if (!run.files.empty()) {
-    const WrittenFiles written =
-        write_results(directory / run.files, parameters_of_files(plan, run.files), *solution);
-    if (process_number(communicator) == 0)
-      mark_complete(written, digest_of_files(plan.digest, study));
-    run.remarks = written.remarks;
-  }
-  run.values = values_of(result, solution->scene.units);
-  run.pressure = pressure_of(result, solution->scene.units);
+  if (!run.files.empty())
+    run.remarks =
+        write_results(directory / run.files, parameters_of_files(plan, run.files), *solution)
+            .remarks;
+  run.values = values_of(result, scene.units);
+  run.pressure = pressure_of(result, scene.units);
   run.failure = shortfall_text(result);
   run.remarks.insert(run.remarks.begin(), result.remarks.begin(), result.remarks.end());
 }
@@ -202,17 +179,6 @@ Parameters StudySolver::parameters_of_files(const RunPlan& plan, const std::stri
   Parameters parameters = read_parameters(settings);
   parameters.file = study.file;
   return parameters;
-}
-
-std::optional<double> StudySolver::exact_distance(const RunOptions& options, const Scene& scene) {
-  const SceneKey key = {options.cylinder, options.road, options.material, 0};
-  return known_or_computed(exact_distances, key, [&] { return find_exact_distance(scene); });
-}
-
-const std::optional<ExactSolution>& StudySolver::exact_solution(const RunOptions& options,
-                                                                const Scene& scene) {
-  const SceneKey key = {options.cylinder, options.road, options.material, scene.road.distance};
-  return known_or_computed(exact_solutions, key, [&] { return find_exact_solution(scene); });
 }
 
 } // namespace rollwave

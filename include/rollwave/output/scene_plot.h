@@ -6,11 +6,8 @@
 
 namespace rollwave {
 
-/// True if the user has given a material or names of units: pictures then show gap and pressure
-/// over the length along the road, otherwise over the angle.
-bool has_own_units(const Units& units);
-
-/// The scene; the surroundings of the contact at true scale; gap and pressure there.
+/// The scene; the surroundings of the contact at true scale; gap and pressure there over the length
+/// along the road.
 Picture plot_scene(const Scene& scene, const Result& result);
 
 } // namespace rollwave

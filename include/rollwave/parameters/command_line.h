@@ -20,7 +20,6 @@ struct CommandLine {
   bool verify = false;           ///< compare with the exact solution
   std::vector<Setting> settings; ///< of --set and --output, in their order
   std::optional<StudyPart> part; ///< of a study
-  std::string joining_command;   ///< the call without --part, for a shell
 };
 
 /// @throws BadInput for arguments that are not understood.

@@ -36,10 +36,9 @@ std::string refusal(const std::vector<Setting>& settings, const BadValue& value)
 struct Affects {
   enum : unsigned int {
     scene = 1,      ///< the problem that is solved
-    mesh = 2,       ///< the mesh, which runs with the same values share
-    resolution = 4, ///< how fine the mesh is: runs that differ only in this are a convergence study
-    titles = 8,     ///< titles of plots, which name the key even at its default
-    uzawa = 16      ///< Uzawa's method only
+    resolution = 2, ///< how fine the mesh is: runs that differ only in this are a convergence study
+    titles = 4,     ///< titles of plots, which name the key even at its default
+    uzawa = 8       ///< Uzawa's method only
   };
 };
 

@@ -45,20 +45,14 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
                                    MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
- * The parameters with these settings; the other keys keep their defaults. The later one of
+ * The parameters @p before with further settings, which override theirs. The later one of
  * `Road/Distance` and `Road/Load` replaces the other.
  *
  * @throws BadInput for an unknown section or key, a value that its key does not accept, a distance
  * and a load of the same origin, such as the command line, or a key that a scene of a study sets
  * twice or that varies as well. Other conditions between keys are checked by make_scene().
  */
-Parameters read_parameters(const std::vector<Setting>& settings);
-
-/// The options of runs that share the settings @p shared, each with further ones that override
-/// them.
-/// @throws BadInput as read_parameters()
-std::vector<RunOptions> read_options(const std::vector<Setting>& shared,
-                                     const std::vector<std::vector<Setting>>& further);
+Parameters read_parameters(const std::vector<Setting>& settings, Parameters before = {});
 
 /// A complete commented parameter file: defaults, overridden by @p settings.
 /// @throws BadInput as read_parameters().

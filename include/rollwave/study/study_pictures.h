@@ -3,7 +3,6 @@
 #include "rollwave/output/output_directory.h"
 #include "rollwave/study/study_record.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace rollwave {
@@ -24,10 +23,10 @@ std::vector<double> fastest_numbers(const Study& study);
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   or, if it is not known, its bound, over h, unknowns and seconds;
  * - study.svg: contact steps on uniform meshes over the key that varies fastest, if that is a
- *   number and the steps of the runs differ.
+ *   number and one of mesh or method, or published steps are given.
  *
  * @throws NotWritten
  */
-void draw_study(const Study& study, const std::filesystem::path& directory, WrittenFiles& written);
+void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& written);
 
 } // namespace rollwave

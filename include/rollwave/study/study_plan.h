@@ -17,7 +17,11 @@ struct RunPlan {
   std::vector<Setting> varied;         ///< one setting for each key of Study/Vary
   std::optional<unsigned int> published_steps;
   RunOptions parameters; ///< of this run alone
-  std::string digest;    ///< see digest_of_run()
+
+  /// A digest of all that its row and its files depend on: the settings of the run as the program
+  /// holds them, the comparison with the exact answer, and the build of the program. Those of
+  /// section Output and the number of the run belong to it only if it has files of its own.
+  std::string digest;
 };
 
 /// Every combination of the values in `Study/Vary`, the last key varying fastest, for each of

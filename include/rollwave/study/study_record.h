@@ -32,7 +32,6 @@ struct Study {
   std::vector<RunPlan> plans;
   std::vector<std::optional<StudyRun>> runs;
   std::optional<StudyPart> part = {}; ///< where a call makes a part of the runs only
-  std::vector<Setting> settings = {}; ///< all of the first run
 
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
   /// vary together.
@@ -56,9 +55,6 @@ struct Study {
 
   /// True if the runs differ in keys of the scene only, not in those of mesh or method.
   bool is_of_scenes() const;
-
-  /// True if the values of two runs differ by more than 1e-8 of the largest.
-  bool varies(const std::string& name) const;
 };
 
 /// The known quantities of a result by their names, in the user's units.

@@ -24,7 +24,7 @@ bool is_table_of_part(const std::string& name);
  * The tables are study.csv and study-profiles.csv, or study.part-K-of-N.csv and
  * study-profiles.part-K-of-N.csv for a part. Each run adds its rows to them; in the end they are
  * written anew, in the order of the study. A run is not made if one of these tables, of the study
- * or of any part, has its row, and its own files are there, if it has some.
+ * or of any part, has its row, and the directory of its files is there, if it has some.
  *
  * On several processes all of them make each run together; rank 0 writes.
  *

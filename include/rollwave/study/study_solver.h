@@ -31,11 +31,8 @@ public:
 private:
   void solve(unsigned int number, StudyRun& run);
   Parameters parameters_of_files(const RunPlan& plan, const std::string& files) const;
-  Solution solve_timed(const RunPlan& plan);
   Solution solve_shared(unsigned int number, StudyRun& run);
   std::pair<double, double> widest_zone(unsigned int number) const;
-  const std::optional<ExactSolution>& exact_solution(const RunOptions& options, const Scene& scene);
-  std::optional<double> exact_distance(const RunOptions& options, const Scene& scene);
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
