@@ -12,10 +12,16 @@ namespace rollwave {
 /// Points in x and y, the latter not a number where there is a gap.
 using Points = std::vector<std::pair<double, double>>;
 
+/// An interval of y; its ends are not a number where there is a gap.
+struct BandPoint {
+  double x, lower, upper;
+};
+
 struct Curve {
   std::string title;
   Points points;
-  Points marks = {}; ///< further points, shown as open circles
+  Points marks = {};                ///< further points, shown as open circles
+  std::vector<BandPoint> band = {}; ///< drawn behind the curves, if it is wider than a line
 };
 
 struct Panel {
