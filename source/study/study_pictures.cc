@@ -86,9 +86,9 @@ std::string title_of(const Study& study) {
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
-  const bool has_marks = !marks.empty() && study.has(marks),
-             has_bounds =
-                 quantity == "contact.vertical_load" && study.has(quantity + "_lower_bound");
+  const bool has_marks = !marks.empty() && study.has(marks);
+  const bool has_bounds =
+      quantity == "contact.vertical_load" && study.has(quantity + "_upper_bound");
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     const Setting* const last = &fastest_key(study, plan);
