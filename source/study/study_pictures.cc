@@ -87,8 +87,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
   const bool has_marks = !marks.empty() && study.has(marks);
-  const bool has_bounds =
-      quantity == "contact.vertical_load" && study.has(quantity + "_upper_bound");
+  const bool has_bounds = quantity == "contact.vertical_load";
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     const Setting* const last = &fastest_key(study, plan);
@@ -102,7 +101,7 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
     if (has_marks)
       curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
-    if (has_bounds)
+    if (has_bounds) // gaps where they are not known
       curves.back().band.push_back(
           {x[run], study.value(run, quantity + "_lower_bound").value_or(missing_point),
            study.value(run, quantity + "_upper_bound").value_or(missing_point)});
