@@ -39,7 +39,8 @@ protected:
     return names;
   }
 
-  void expect_answer_of_one(const std::string& arguments, const std::vector<int>& counts) {
+  /// Expects 2, 3 and 5 processes to find the numbers, the contact and the files of one.
+  void expect_answer_of_one(const std::string& arguments) {
     std::filesystem::remove_all(directory / "out");
     const Outcome alone =
         shell("$rollwave " + arguments + " --output '" + (directory / "out").string() + "'");
@@ -47,7 +48,7 @@ protected:
     const auto expected = nlohmann::json::parse(read("summary.json"));
     const auto expected_rows = csv_rows(read("contact.csv"));
     const std::set<std::string> expected_files = files();
-    for (const int n : counts) {
+    for (const int n : {2, 3, 5}) {
       SCOPED_TRACE(n);
       const Outcome many = shell(on_processes(n) + "$rollwave " + arguments + " --output '" +
                                  (directory / "out").string() + "'");
@@ -79,45 +80,48 @@ protected:
 
 TEST_F(Processes, HaveTheAnswerOfOneAtTheCriticalSpeed) {
   expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-5.prm' --set 'Mesh/Radial cells=6' "
-                       "--set 'Mesh/Angular cells=90'",
-                       {5});
+                       "--set 'Mesh/Angular cells=90'");
 }
 
 TEST_F(Processes, RefineLikeOne) {
   expect_answer_of_one("'" ROLLWAVE_PRM_DIRECTORY "/figure-6.prm' --set 'Mesh/Radial cells=3' "
-                       "--set 'Mesh/Angular cells=38' --set 'Mesh/Wanted relative error=1e-2'",
-                       {3});
+                       "--set 'Mesh/Angular cells=38' --set 'Mesh/Wanted relative error=1e-2'");
 }
 
-// Most of them begin without a cell, and without a contact node for long.
+// Of five, two begin without a cell, and most without a contact node for long.
 TEST_F(Processes, MayBeMoreThanCells) {
-  expect_answer_of_one(scene + " --set 'Mesh/Radial cells=1' --set 'Mesh/Angular cells=4' --set "
-                               "'Mesh/Adaptive cycles=4' --set 'Mesh/Degree=2'",
-                       {6});
+  expect_answer_of_one(scene + " --set 'Mesh/Radial cells=1' --set 'Mesh/Angular cells=3' --set "
+                               "'Mesh/Adaptive cycles=4' --set 'Mesh/Degree=2'");
 }
 
 // Processes with one column of cells or none: the cells on both sides of a column are the same.
 TEST_F(Processes, MayBeMoreThanColumns) {
   expect_answer_of_one(scene + " --set 'Mesh/Radial cells=5' --set 'Mesh/Global refinements=1' "
-                               "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'",
-                       {5});
+                               "--set 'Mesh/Angular cells=3' --set 'Mesh/Degree=2'");
+}
+
+TEST_F(Processes, HaveTheAnswerOfOneByCubicElements) {
+  expect_answer_of_one(scene + " --set Mesh/Degree=3");
+}
+
+TEST_F(Processes, HaveTheAnswerOfOneInAThinRing) {
+  expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.999' --set Road/Distance=0.9995 "
+                               "--set 'Mesh/Radial cells=2' --set 'Mesh/Angular cells=200'");
 }
 
 TEST_F(Processes, IterateLikeOneByUzawa) {
-  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-8'", {2});
+  expect_answer_of_one(scene + " --set 'Contact/Method=uzawa' --set 'Contact/Tolerance=1e-8'");
 }
 
 TEST_F(Processes, RefineAThickRingWithAnUnevenForceLikeOne) {
   expect_answer_of_one(scene + " --set 'Cylinder/Inner radius=0.05' --set 'Cylinder/Radial "
                                "force=0.1*cos(z)*r' --set 'Cylinder/Angular velocity=1' --set "
-                               "'Mesh/Wanted relative error=0.2' --set 'Mesh/Degree=2'",
-                       {2});
+                               "'Mesh/Wanted relative error=0.2' --set 'Mesh/Degree=2'");
 }
 
 TEST_F(Processes, FindALoadInADrumLikeOne) {
   expect_answer_of_one(scene + " --set Road/Curvature=-0.5 --set Road/Load=0.2 --set 'Road/Load "
-                               "kind=total'",
-                       {3});
+                               "kind=total'");
 }
 
 TEST_F(Processes, HaveTwoPatchesInUnitsLikeOne) {
@@ -125,23 +129,20 @@ TEST_F(Processes, HaveTwoPatchesInUnitsLikeOne) {
       scene + " --set Material/Density=1.1e-9 --set Material/Width=200 --set 'Cylinder/Inner "
               "radius=17.5' --set 'Cylinder/Outer radius=35' --set 'Cylinder/Angular velocity=86' "
               "--set Road/Distance=28 --set 'Cylinder/Radial "
-              "force=-0.2*exp(-((z-4.71238898)/0.12)^2)' --set 'Mesh/Angular cells=120'",
-      {2});
+              "force=-0.2*exp(-((z-4.71238898)/0.12)^2)' --set 'Mesh/Angular cells=120'");
 }
 
 // Columns of two lengths.
 TEST_F(Processes, MeetTheEndsOfTheZoneLikeOne) {
   expect_answer_of_one(
-      scene + " --set 'Road/Contact zone=4.450589592586, 4.9741883681836' --set Mesh/Degree=2",
-      {2});
+      scene + " --set 'Road/Contact zone=4.450589592586, 4.9741883681836' --set Mesh/Degree=2");
 }
 
 // Jumps, of which some are seen at the points of the load only.
 TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
   expect_answer_of_one(scene + " --set 'Cylinder/Radial force=floor(8*r)/10"
                                "+if((r-0.8)^2+(z-1.4)^2<0.0025,1,0)+if(abs(z-4.52)<0.03,1,0)'"
-                               " --set 'Mesh/Degree=2' --set 'Mesh/Adaptive cycles=1'",
-                       {3});
+                               " --set 'Mesh/Degree=2' --set 'Mesh/Adaptive cycles=1'");
 }
 
 // Where cells on both sides touch in a vertex only.
@@ -151,8 +152,7 @@ TEST_F(Processes, RefineAcrossTheSeamLikeOne) {
               "--set 'Road/Contact zone=4.5, 5.1' --set 'Cylinder/Radial force=if(r<0.7123,1,0)' "
               "--set 'Mesh/Radial cells=3' --set 'Mesh/Angular cells=20' --set 'Mesh/Global "
               "refinements=1' --set 'Mesh/Adaptive cycles=3' --set Mesh/Indicator=kelly --set "
-              "'Mesh/Marked fraction=0.8' --set 'Mesh/Most unknowns=3000'",
-      {3});
+              "'Mesh/Marked fraction=0.8' --set 'Mesh/Most unknowns=3000'");
 }
 
 TEST_F(Processes, ReadAPipeTogether) {
@@ -168,8 +168,8 @@ void expect_refusal(const Outcome& outcome, const std::string& words) {
 }
 
 TEST_F(Processes, ReportBadInputOnce) {
-  expect_refusal(shell(on_processes(3) + "$rollwave " + scene + " --set Mesh/Degre=2"),
-                 "--set");
+  expect_refusal(shell(on_processes(3) + "$rollwave " + scene + " --set Solver/Kind=direct"),
+                 "Solver");
   expect_refusal(shell(on_processes(2) + "$rollwave /no/such/file"), "cannot be read");
 }
 
@@ -188,6 +188,23 @@ TEST_F(Processes, EndTogetherWhenOneIsKilled) {
   EXPECT_FALSE(has("summary.json"));
   EXPECT_FALSE(has("solution.vtu"));
 }
+
+#ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
+// MUMPS runs out of memory, which all processes know, or one process does alone.
+TEST_F(Processes, EndTogetherWithoutMemory) {
+  for (const unsigned int limit : {700000, 900000}) { // KiB
+    const Outcome outcome =
+        shell("ulimit -c 0; timeout 60 " + on_processes(2) + "sh -c \"ulimit -v " +
+              std::to_string(limit) + "; exec $rollwave " + scene +
+              " --set Mesh/Degree=2 --set 'Mesh/Radial cells=100' --set 'Mesh/Angular "
+              "cells=1000'\"");
+    EXPECT_EQ(outcome.exit_code, 2) << limit << outcome.text; // 124: still running
+    EXPECT_NE(outcome.text.find("rollwave: not solved: "), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find("memory"), std::string::npos) << outcome.text;
+    EXPECT_FALSE(has("summary.json"));
+  }
+}
+#endif
 
 class StudyOnProcesses : public Processes {
 protected:

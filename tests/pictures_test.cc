@@ -112,6 +112,39 @@ TEST_F(Pictures, CurvesGoThroughTheRowsOfTheTableInOrder) {
   EXPECT_EQ(panel, settings_of(read("study-curves.gp"), "ylabel").size());
 }
 
+TEST_F(Pictures, BandsAreTheGuaranteedIntervalsOfTheVerticalLoad) {
+  run({"Study/Vary=Road/Distance = 0.8 | 0.7 | 0.85", "Mesh/Degree=1", "Mesh/Angular cells=30"});
+  auto rows = csv_rows(read("study.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  std::sort(rows.begin(), rows.end(), [](const CsvRow& left, const CsvRow& right) {
+    return number(left, "scene.deflection") < number(right, "scene.deflection");
+  });
+  unsigned int n_bands = 0;
+  for (const auto& [name, points] : blocks_of(read("study-curves.gp")))
+    if (name.rfind("$band_", 0) == 0) {
+      ++n_bands;
+      ASSERT_EQ(points.size(), 3u);
+      for (unsigned int i = 0; i < 3; ++i) {
+        ASSERT_EQ(points[i].size(), 3u);
+        const char* const columns[] = {"scene.deflection", "contact.vertical_load_lower_bound",
+                                       "contact.vertical_load_upper_bound"};
+        for (unsigned int k = 0; k < 3; ++k)
+          EXPECT_NEAR(points[i][k], number(rows[i], columns[k]), 1e-8);
+      }
+    }
+  EXPECT_EQ(n_bands, 1u);
+}
+
+TEST_F(Pictures, BandsThinnerThanALineAreLeftOut) {
+  for (const double width : {1e-4, 0.1}) {
+    rollwave::Curve curve{"", {{1, 2}, {2, 3}}};
+    curve.band = {{1, 2 - width, 2 + width}, {2, 3 - width, 3 + width}};
+    const rollwave::Picture picture = rollwave::plot_panels("band", "", {{"x", "y", {curve}}});
+    EXPECT_EQ(blocks_of(picture.script).count("$band_1_1"), width > 0.01 ? 1u : 0u);
+    drawn(picture);
+  }
+}
+
 TEST_F(Pictures, ErrorsLieOverTheDiametersOfCells) {
   run({"Mesh/Degree=1", "Study/Vary=Mesh/Global refinements = 0 | 2 | 1"});
   const auto rows = csv_rows(read("study.csv"));

@@ -98,8 +98,11 @@ CycleFigures describe_cycle(const RingSpace& space, const MeshSolution& solution
       solution.resultants.loads.vertical,
       0,
       {}};
-  if (certificate)
+  if (certificate) {
     cycle.certified = certificate->error.relative;
+    const Interval& load = certificate->error.loads.vertical;
+    cycle.load_half_width = (load.upper - load.lower) / 2;
+  }
   return cycle;
 }
 

@@ -1,6 +1,7 @@
 #include "rollwave/run/system.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/scene/scene.h"
@@ -20,9 +21,12 @@ using namespace dealii;
 
 namespace {
 
-/// @throws NotEnoughMemory, also in place of std::bad_alloc and deal.II's ExcOutOfMemory
+/// @throws NotEnoughMemory, on one process also in place of std::bad_alloc and deal.II's
+/// ExcOutOfMemory. Of several processes one may be short of memory alone, which ends the program.
 std::unique_ptr<const StiffnessFactor> make_factor(const ContactBoundary& boundary,
                                                    const Scene& scene, RunStatistics& statistics) {
+  if (!is_serial(boundary.space().communicator()))
+    return std::make_unique<StiffnessFactor>(boundary, scene, statistics);
   try {
     return std::make_unique<StiffnessFactor>(boundary, scene, statistics);
   } catch (const std::bad_alloc&) {

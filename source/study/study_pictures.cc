@@ -68,11 +68,12 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
 }
 
 /// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
-/// the other keys; another quantity gives the marks.
+/// the other keys; another quantity gives the marks, and the bounds of a vertical load the band.
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
   const bool has_marks = !marks.empty() && study.has(marks);
+  const bool has_bounds = quantity == "contact.vertical_load";
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     const Setting* const last = &fastest_key(study, plan);
@@ -86,6 +87,10 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
     if (has_marks)
       curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
+    if (has_bounds) // gaps where they are not known
+      curves.back().band.push_back(
+          {x[run], study.value(run, quantity + "_lower_bound").value_or(missing_point),
+           study.value(run, quantity + "_upper_bound").value_or(missing_point)});
   }
   for (Curve& curve : curves)
     std::stable_sort(curve.points.begin(), curve.points.end(),

@@ -44,6 +44,15 @@ void write_points(std::ostream& script, const std::string& name, const Points& p
   script << "EOD\n";
 }
 
+void write_band(std::ostream& script, const std::string& name, std::vector<BandPoint> band) {
+  std::stable_sort(band.begin(), band.end(),
+                   [](const BandPoint& left, const BandPoint& right) { return left.x < right.x; });
+  script << name << " << EOD\n";
+  for (const auto& [x, lower, upper] : band)
+    script << plotted(x) << ' ' << plotted(lower) << ' ' << plotted(upper) << '\n';
+  script << "EOD\n";
+}
+
 /// c of the line y = c x^slope, below all points.
 double below(const std::vector<Curve>& curves, double slope) {
   double least = std::numeric_limits<double>::max();
@@ -61,16 +70,41 @@ std::string style(unsigned int curve, std::size_t n_points) {
          std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
-/// The range of y: at least a per cent of its values, so that noise does not fill the panel.
-std::string y_range(const Panel& panel) {
+/// The least and the largest y of all curves.
+std::pair<double, double> extent(const Panel& panel) {
   double least = std::numeric_limits<double>::max(), largest = -least;
-  for (const Curve& curve : panel.curves)
+  const auto extend = [&](double y) {
+    if (!std::isnan(y)) {
+      least = std::min(least, y);
+      largest = std::max(largest, y);
+    }
+  };
+  for (const Curve& curve : panel.curves) {
     for (const Points* const points : {&curve.points, &curve.marks})
       for (const auto& [x, y] : *points)
-        if (!std::isnan(y)) {
-          least = std::min(least, y);
-          largest = std::max(largest, y);
-        }
+        extend(y);
+    for (const BandPoint& point : curve.band) {
+      extend(point.lower);
+      extend(point.upper);
+    }
+  }
+  return {least, largest};
+}
+
+/// Takes the bands away that are nowhere wider than a line.
+void drop_thin_bands(Panel& panel) {
+  constexpr double line_over_height = 1. / 150; // of a panel
+  const auto [least, largest] = extent(panel);
+  const double line = line_over_height * (largest - least);
+  for (Curve& curve : panel.curves)
+    if (std::none_of(curve.band.begin(), curve.band.end(),
+                     [line](const BandPoint& point) { return point.upper - point.lower > line; }))
+      curve.band.clear();
+}
+
+/// The range of y: at least a per cent of its values, so that noise does not fill the panel.
+std::string y_range(const Panel& panel) {
+  const auto [least, largest] = extent(panel);
   const double span = 0.01 * std::max(std::abs(least), std::abs(largest)),
                middle = least + (largest - least) / 2;
   return largest - least < span
@@ -100,6 +134,9 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
            << colours[curve] << "' title " << in_single_quotes(title);
     separator = ", ";
   };
+  for (unsigned int i = 0; i < panel.curves.size(); ++i) // the lines lie on them
+    if (!panel.curves[i].band.empty())
+      add(block("band", k, i), i, "filledcurves fillstyle transparent solid 0.25 noborder", "");
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
     add(block("curve", k, i), i, style(i, curve.points.size()), curve.title);
@@ -126,12 +163,16 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
       panel.curves = std::move(chosen);
     }
   }
+  for (Panel& panel : panels)
+    drop_thin_bands(panel);
   std::ostringstream script;
   script.precision(9);
   script << "set grid\nset datafile missing 'NaN'\n";
   for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
     for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
       write_points(script, block("curve", k, i), panels[k].curves[i].points);
+      if (!panels[k].curves[i].band.empty())
+        write_band(script, block("band", k, i), panels[k].curves[i].band);
       if (!panels[k].curves[i].marks.empty())
         write_points(script, block("marks", k, i), panels[k].curves[i].marks);
     }

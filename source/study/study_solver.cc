@@ -89,6 +89,24 @@ StudyRun StudySolver::solve(unsigned int number) {
   return run;
 }
 
+/// Solves a run whose time is compared with others. A short one is solved three times and the
+/// fastest counts: the first includes page faults and the start of threads.
+Solution StudySolver::solve_timed(const RunOptions& options) {
+  solution.reset(); // frees its memory first
+  const Scene scene = make_scene(options);
+  const auto seconds = [this](const Solution& solution) {
+    return Utilities::MPI::max(solution.result.statistics.total_seconds(), communicator);
+  };
+  std::optional<Solution> fastest = simulate(scene, options, communicator, progress);
+  constexpr double short_seconds = 0.2;
+  for (int repetition = 0; repetition < 2 && seconds(*fastest) < short_seconds; ++repetition) {
+    Solution again = simulate(scene, options, communicator);
+    if (seconds(again) < seconds(*fastest))
+      fastest.emplace(std::move(again));
+  }
+  return std::move(*fastest);
+}
+
 /// The zone that contains those of this run and of the next ones with the same system.
 std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
   std::pair<double, double> widest = make_scene(plans[number].parameters).zone();
@@ -101,8 +119,7 @@ std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
   return widest;
 }
 
-/// Solves a run with the mesh and the matrices of the run before, as far as it has the same and no
-/// true errors are asked for.
+/// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
 Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
   const RunOptions& parameters = plans[number].parameters;
   const Scene scene = make_scene(parameters);
@@ -112,7 +129,7 @@ Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
   const bool has_mesh = is_shared_with_last(have_same_mesh),
              has_system = is_shared_with_last(have_same_system),
              has_load = has_system && is_shared_with_last(have_same_force),
-             is_followed = !study.study.true_errors && number + 1 < plans.size() &&
+             is_followed = number + 1 < plans.size() &&
                            have_same_mesh(parameters, plans[number + 1].parameters);
   std::optional<Mesh> mesh;
   if (has_mesh) {
@@ -141,7 +158,8 @@ Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
 
 void StudySolver::solve(unsigned int number, StudyRun& run) {
   const RunPlan& plan = plans[number];
-  solution.emplace(solve_shared(number, run));
+  solution.emplace(study.study.true_errors ? solve_timed(plan.parameters)
+                                           : solve_shared(number, run));
   Result& result = solution->result;
   if (result.is_interrupted)
     throw Interrupted(shortfall_text(result));

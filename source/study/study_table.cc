@@ -89,10 +89,13 @@ std::string line_of_run(const Study& study, unsigned int run) {
   line << run + 1 << " of " << study.plans.size() << "  "
        << label(study.plans[run], [](const Setting&) { return true; }) << ":  ";
   const bool has_load = study.plans[run].parameters.road.load.has_value();
-  const ResultQuantity& result = result_quantity(has_load ? "scene.deflection" : "contact.force");
+  const ResultQuantity& result = result_quantity(has_load               ? "scene.road_distance"
+                                                 : study.is_of_scenes() ? "contact.vertical_load"
+                                                                        : "contact.force");
   if (const auto value = study.value(run, result.name))
-    line << result.symbol << " = " << rounded(*value, 6) << study.units().after(result.quantity)
-         << ", " << study.value(run, "iterations.contact").value_or(0)
+    line << (result.symbol.empty() ? result.words : result.symbol) << " = " << rounded(*value, 6)
+         << study.units().after(result.quantity) << ", "
+         << study.value(run, "iterations.contact").value_or(0)
          << (study.value(run, "iterations.contact") == 1 ? " step, " : " steps, ")
          << rounded(study.value(run, "seconds.total").value_or(0), 3) << " s, ";
   line << outcome_of(*study.runs[run]);

@@ -35,7 +35,8 @@ struct CycleFigures {
   double road_distance; ///< c, a length
   double vertical_load; ///< see Loads
   double indicated;     ///< sqrt(sum eta_K^2); 0 where it was not computed, as on the last mesh
-  std::optional<double> certified; ///< CertifiedError::relative where it was computed
+  std::optional<double> certified;            ///< CertifiedError::relative where it was computed
+  std::optional<double> load_half_width = {}; ///< of the guaranteed interval of vertical_load
 };
 
 /// How well the optimality conditions hold, each relative to its own data; all zero is perfect.

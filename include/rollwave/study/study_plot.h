@@ -12,11 +12,17 @@ namespace rollwave {
 /// Points in x and y, the latter not a number where there is a gap.
 using Points = std::vector<std::pair<double, double>>;
 
+/// An interval of y; its ends are not a number where there is a gap.
+struct BandPoint {
+  double x, lower, upper;
+};
+
 /// One curve of a panel: its points joined by lines.
 struct Curve {
   std::string title;
   Points points;
-  Points marks = {}; ///< further points, shown as open circles
+  Points marks = {};                ///< further points, shown as open circles
+  std::vector<BandPoint> band = {}; ///< drawn behind the curves, if it is wider than a line
 };
 
 /// A pair of axes with curves.

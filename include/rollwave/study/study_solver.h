@@ -31,6 +31,7 @@ public:
 private:
   void solve(unsigned int number, StudyRun& run);
   Parameters parameters_of_files(const RunPlan& plan, const std::string& files) const;
+  Solution solve_timed(const RunOptions& options);
   Solution solve_shared(unsigned int number, StudyRun& run);
   std::pair<double, double> widest_zone(unsigned int number) const;
 
