@@ -336,8 +336,7 @@ TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
         most == 700000 ? "export OMP_NUM_THREADS=" : "unset OMP_NUM_THREADS";
     const Outcome outcome = shell("unset OPENBLAS_NUM_THREADS; " + threads + "; ulimit -v " +
                                   std::to_string(most) + "; timeout -s KILL 60 $rollwave " + scene);
-    // The loader has no room for the libraries.
-    const bool is_loaded = outcome.text.find("shared librar") == std::string::npos;
+    const bool is_loaded = outcome.exit_code != 127; // the loader's, without room for libraries
     if (most == lots) {
       EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
     } else if (is_loaded) {
@@ -412,18 +411,6 @@ TEST_F(Faults, GnuplotThatHangsCostsThePictureOnly) {
   std::ostringstream earlier;
   earlier << std::ifstream(bin / "earlier.json").rdbuf();
   EXPECT_EQ(earlier.str(), read("summary.json"));
-}
-
-// At a road that is nearer there is more contact, for which this rho is too large.
-TEST_F(Faults, LoadBoundsThatFailCostNothingElse) {
-  const Outcome outcome =
-      shell("$rollwave " + scene +
-            " --set Contact/Method=uzawa --set Contact/Rho=3.9 --set Mesh/Degree=1 --set "
-            "'Mesh/Radial cells=4' --set 'Mesh/Angular cells=60' --set 'Certificate/Load "
-            "bounds=true'");
-  ASSERT_EQ(outcome.exit_code, 2) << outcome.text;
-  EXPECT_TRUE(has("solution.vtu"));
-  EXPECT_TRUE(nlohmann::json::parse(read("summary.json"))["error"].contains("certified_relative"));
 }
 
 } // namespace

@@ -122,10 +122,7 @@ TEST_F(Program, MakesAStudyInParts) {
   ASSERT_EQ(part.exit_code, 0) << part.text;
   EXPECT_EQ(csv_rows(read("study.part-1-of-2.csv")).size(), 2u);
   EXPECT_FALSE(has("study.csv") || has("study.txt"));
-  const auto command = part.text.find("rollwave " + directory.string());
-  ASSERT_NE(command, std::string::npos) << part.text;
-  EXPECT_EQ(part.text.substr(command), "rollwave " + (directory / "scene.prm").string() +
-                                           " --set 'Study/Vary=Road/Distance = 0.7 | 0.8 | 0.9'\n");
+  EXPECT_NE(part.text.find("Part 1 of 2: 2 runs"), std::string::npos) << part.text;
   ASSERT_EQ(shell(study + " --part 2/2").exit_code, 0);
   const Outcome joined = shell(study);
   ASSERT_EQ(joined.exit_code, 0) << joined.text;

@@ -107,13 +107,18 @@ Solution StudySolver::solve_timed(const RunOptions& options) {
   return std::move(*fastest);
 }
 
-/// The zone that contains those of this run and of the next ones with the same system.
+/// The zone that contains those of this run and of its neighbours in the study with the same
+/// system, the same for all of them, so that rows do not depend on where a study goes on.
 std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
-  std::pair<double, double> widest = make_scene(plans[number].parameters).zone();
-  for (unsigned int next = number + 1;
-       next < plans.size() && have_same_system(plans[number].parameters, plans[next].parameters);
-       ++next) {
-    const auto [begin, end] = make_scene(plans[next].parameters).zone();
+  const auto shares = [&](unsigned int other) {
+    return have_same_system(plans[number].parameters, plans[other].parameters);
+  };
+  unsigned int first = number;
+  while (first > 0 && shares(first - 1))
+    --first;
+  std::pair<double, double> widest = make_scene(plans[first].parameters).zone();
+  for (unsigned int run = first + 1; run < plans.size() && shares(run); ++run) {
+    const auto [begin, end] = make_scene(plans[run].parameters).zone();
     widest = {std::min(widest.first, begin), std::max(widest.second, end)};
   }
   return widest;
