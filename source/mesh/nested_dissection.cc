@@ -26,7 +26,7 @@ struct Node {
   types::global_dof_index dof;
 };
 
-using Range = std::pair<std::vector<Node>::iterator, std::vector<Node>::iterator>;
+using NodeRange = std::pair<std::vector<Node>::iterator, std::vector<Node>::iterator>;
 
 /// A part of the mesh: lines of coarse cells, or halves, quarters .. of one cell.
 struct Box {
@@ -50,7 +50,7 @@ struct Box {
 /// The cost of a line: the squared number of nodes on it, which is the number of entries that it
 /// adds to the factor, divided by the number of pairs of nodes that it separates. If it separates
 /// none: 0 if all nodes lie on one side and not all at one place, otherwise infinity.
-double cost(const Box& box, unsigned int direction, const Range& nodes) {
+double cost(const Box& box, unsigned int direction, const NodeRange& nodes) {
   double below = 0, on = 0, lowest = nodes.first->place[direction], highest = lowest;
   for (auto node = nodes.first; node != nodes.second; ++node) {
     const double place = node->place[direction];
@@ -68,7 +68,7 @@ double cost(const Box& box, unsigned int direction, const Range& nodes) {
 }
 
 /// Puts nodes in the order of elimination.
-void dissect(Range nodes, const Box& box) {
+void dissect(NodeRange nodes, const Box& box) {
   if (nodes.second - nodes.first < 2)
     return;
   const unsigned int direction = cost(box, 0, nodes) < cost(box, 1, nodes) ? 0 : 1;
