@@ -1,11 +1,30 @@
 #include "rollwave/solver/stiffness_factor.h"
 
+#include "rollwave/base/errors.h"
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/solver/assembly.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace rollwave {
 
 using namespace dealii;
+
+namespace {
+
+/// @throws NotSolved on all processes where a value is not finite
+void require_finite_field(const FieldVector& u) {
+  const bool is_own_finite =
+      std::all_of(u.begin(), u.end(), [](double value) { return std::isfinite(value); });
+  if (Utilities::MPI::min(int(is_own_finite), u.get_mpi_communicator()) == 0)
+    throw NotSolved("the displacement overflows double precision: change Cylinder/Radial force, or "
+                    "choose radii that differ more");
+}
+
+} // namespace
 
 StiffnessFactor::StiffnessFactor(const ContactBoundary& boundary, const Scene& scene,
                                  RunStatistics& statistics)
@@ -45,6 +64,7 @@ FieldVector StiffnessFactor::expand(const FieldVector* f,
     rhs += *f;
   u = factor->solve_interior(rhs, statistics);
   set_contact_nodes(u);
+  require_finite_field(u);
   space.constraints().distribute(u);
   u.update_ghost_values();
   return u;

@@ -34,6 +34,7 @@ public:
 
   /// The field u with K_ii u_i = f_i - K_ic u_c, constraints included.
   /// @param f the load, nullptr for none @param contact_displacement u_c
+  /// @throws NotSolved where u is not finite
   FieldVector expand(const FieldVector* f, const dealii::Vector<double>& contact_displacement,
                      RunStatistics& statistics) const;
 
