@@ -203,7 +203,9 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
   shared->copy_triangulation(*grid);
   join_seam(*shared);
   shared->refine_global(coarse.n_refinements);
-  shared->repartition();
+  constexpr double even_shares = 100; // coarse cells on each process share the refined ones evenly
+  if (n_coarse < even_shares * count_processes(communicator))
+    shared->repartition();
   return shared;
 }
 
