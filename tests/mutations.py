@@ -22,7 +22,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('contact/load_control', '(excess > 0 ? near : far) = distance', '(excess < 0 ? near : far) = distance'),
     ('contact/uzawa', 'p(i) - rho * (displacement(i) - problem.phi(i))', 'p(i) + rho * (displacement(i) - problem.phi(i))'),
     ('contact/uzawa', 'length.rho >= *length.largest', 'false'),
-    ('error_bound/error_bound', 'eta * eta / 2 -', 'eta * eta -'),
+    ('error_bound/error_bound', 'error.eta * error.eta / 2 -', 'error.eta * error.eta -'),
     ('error_bound/error_bound', 'error_of_v = error.eta + delta', 'error_of_v = error.eta'),
     ('error_bound/error_bound', 'error_of_v + std::sqrt(integrals.moved_squared)', 'error_of_v'),
     ('error_bound/error_bound', 'error.energy_norm / smallest_norm', 'error.energy_norm / norm'),
