@@ -131,7 +131,6 @@ std::function<double(double r, double z)> parse_force(const CylinderOptions& cyl
 BodyForce make_force(const CylinderOptions& cylinder, const Units& units) {
   const double density = units.of(Quantity::force_density);
   BodyForce force;
-  force.text = text(cylinder.radial_force, " over ", units.material.shear_modulus);
   const std::optional<double> uniform = value_if_any(cylinder.radial_force);
   if (!uniform)
     force.density = [unit = units.length, density, f = parse_force(cylinder)](double r, double z) {

@@ -81,7 +81,7 @@ struct ContactStep {
   unsigned int changed;   ///< nodes that entered or left contact after this step
   double penetration;     ///< max (u_i - phi_i, 0), a length
   double lowest_pressure; ///< min (lambda_i, 0)
-  /// Of Uzawa's method: what its stopping rule measures, relative to u.
+  /// The number that Uzawa's stopping rule compares with the tolerance; nullopt for the active set.
   std::optional<double> residual = {};
 };
 

@@ -2,7 +2,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 
 namespace rollwave {
 
@@ -13,8 +12,6 @@ struct BodyForce {
 
   /// f where it is a constant that is known, so that its integrals need no quadrature.
   std::optional<double> uniform = {};
-
-  std::string text = {}; ///< the user's expression and modulus; equal texts are equal forces
 
   /// True if there is a force.
   explicit operator bool() const { return density != nullptr; }
