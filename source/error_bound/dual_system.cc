@@ -199,7 +199,7 @@ FieldVector DualSystem::stress_function(const Scene& scene,
   if (force && !force->is_uniform()) // a function of r does no work on periodic potentials
     force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
-  FieldVector potential = factor->solve_interior(load, statistics);
+  FieldVector potential = factor->solve(&load, Vector<double>(), statistics);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;

@@ -89,18 +89,29 @@ DistributedFactor::DistributedFactor(const RingSpace& space, const std::vector<i
   }
 }
 
-FieldVector DistributedFactor::solve_interior(const FieldVector& rhs,
-                                              RunStatistics& statistics) const {
+FieldVector DistributedFactor::solve(const FieldVector* rhs, const Vector<double>& contact_values,
+                                     RunStatistics& statistics) const {
   ++statistics.sparse_solves;
+  const auto set_contact_values = [&](FieldVector& field) {
+    for (unsigned int i = 0; i < contact_rows.size(); ++i)
+      if (field.in_local_range(contact_rows[i]))
+        field(contact_rows[i]) = contact_values(i);
+  };
+  FieldVector x = space.make_field();
+  set_contact_values(x);
+  FieldVector interior_rhs = apply(x);
+  interior_rhs *= -1;
+  if (rhs)
+    interior_rhs += *rhs;
   const MPI_Comm communicator = space.communicator();
   const int rank = process_number(communicator), n_own = n_owned[rank];
   std::vector<double> all(rank == 0 ? space.dof_handler().n_dofs() : 0);
-  MPI_Gatherv(rhs.begin(), n_own, MPI_DOUBLE, all.data(), n_owned.data(), first_owned.data(),
-              MPI_DOUBLE, 0, communicator);
+  MPI_Gatherv(interior_rhs.begin(), n_own, MPI_DOUBLE, all.data(), n_owned.data(),
+              first_owned.data(), MPI_DOUBLE, 0, communicator);
   all = factor->solve_interior(std::move(all));
-  FieldVector x = space.make_field();
   MPI_Scatterv(all.data(), n_owned.data(), first_owned.data(), MPI_DOUBLE, x.begin(), n_own,
                MPI_DOUBLE, 0, communicator);
+  set_contact_values(x);
   return x;
 }
 

@@ -65,12 +65,20 @@ std::unique_ptr<const SparseFactor> SerialMatrix::factorise(RunStatistics& stati
 SerialFactor::SerialFactor(const RingSpace& space, EliminationOrder order, CholmodFactor cholesky)
     : space(space), order(std::move(order)), cholesky(std::move(cholesky)) {}
 
-FieldVector SerialFactor::solve_interior(const FieldVector& rhs, RunStatistics& statistics) const {
+FieldVector SerialFactor::solve(const FieldVector* rhs, const Vector<double>& contact_values,
+                                RunStatistics& statistics) const {
   ++statistics.sparse_solves;
-  std::vector<double> values = cholesky.forward(gather(rhs));
-  // With zeros in the last rows of L^T x = L^-1 rhs, x_c = 0 and L_ii^T x_i = (L^-1 rhs)_i.
-  std::fill(values.end() - order.n_last, values.end(), 0.);
-  return scatter(cholesky.backward(std::move(values)));
+  // L^T x = y with y_i = (L^-1 rhs)_i and y_c = L_cc^T x_c
+  std::vector<double> y =
+      rhs ? cholesky.forward(gather(*rhs)) : std::vector<double>(order.n_unknowns);
+  if (order.n_last > 0) {
+    Vector<double> last(order.n_last);
+    schur_factor().Tvmult(last, contact_values);
+    std::copy(last.begin(), last.end(), y.end() - order.n_last);
+  }
+  std::vector<double> x = cholesky.backward(std::move(y));
+  std::copy(contact_values.begin(), contact_values.end(), x.end() - order.n_last);
+  return scatter(x);
 }
 
 FieldVector SerialFactor::apply(const FieldVector& x) const {

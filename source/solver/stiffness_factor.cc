@@ -42,7 +42,7 @@ StiffnessFactor::StiffnessFactor(const ContactBoundary& boundary, const Scene& s
 }
 
 Vector<double> StiffnessFactor::condense(const FieldVector& f, RunStatistics& statistics) const {
-  FieldVector rest = factor->apply(factor->solve_interior(f, statistics));
+  FieldVector rest = factor->apply(factor->solve(&f, Vector<double>(boundary.size()), statistics));
   rest.sadd(-1, f);
   return boundary.contact_values(rest);
 }
@@ -50,22 +50,9 @@ Vector<double> StiffnessFactor::condense(const FieldVector& f, RunStatistics& st
 FieldVector StiffnessFactor::expand(const FieldVector* f,
                                     const Vector<double>& contact_displacement,
                                     RunStatistics& statistics) const {
-  const RingSpace& space = boundary.space();
-  const auto set_contact_nodes = [&](FieldVector& field) {
-    for (unsigned int i = 0; i < boundary.size(); ++i)
-      if (const auto dof = boundary.contact_nodes()[i].dof; field.in_local_range(dof))
-        field(dof) = contact_displacement(i);
-  };
-  FieldVector u = space.make_field();
-  set_contact_nodes(u);
-  FieldVector rhs = factor->apply(u);
-  rhs *= -1;
-  if (f)
-    rhs += *f;
-  u = factor->solve_interior(rhs, statistics);
-  set_contact_nodes(u);
+  FieldVector u = factor->solve(f, contact_displacement, statistics);
   require_finite_field(u);
-  space.constraints().distribute(u);
+  boundary.space().constraints().distribute(u);
   u.update_ghost_values();
   return u;
 }

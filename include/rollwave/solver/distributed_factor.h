@@ -34,7 +34,8 @@ public:
                     std::unique_ptr<const dealii::TrilinosWrappers::SparseMatrix> matrix,
                     std::unique_ptr<const MumpsFactor> factor);
 
-  FieldVector solve_interior(const FieldVector& rhs, RunStatistics& statistics) const override;
+  FieldVector solve(const FieldVector* rhs, const dealii::Vector<double>& contact_values,
+                    RunStatistics& statistics) const override;
   FieldVector apply(const FieldVector& x) const override;
   dealii::FullMatrix<double> schur_factor() const override;
 

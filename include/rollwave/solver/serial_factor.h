@@ -46,7 +46,8 @@ class SerialFactor : public SparseFactor {
 public:
   SerialFactor(const RingSpace& space, EliminationOrder order, CholmodFactor cholesky);
 
-  FieldVector solve_interior(const FieldVector& rhs, RunStatistics& statistics) const override;
+  FieldVector solve(const FieldVector* rhs, const dealii::Vector<double>& contact_values,
+                    RunStatistics& statistics) const override;
   FieldVector apply(const FieldVector& x) const override;
   dealii::FullMatrix<double> schur_factor() const override;
 

@@ -3,6 +3,7 @@
 #include "rollwave/mesh/ring_space.h"
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <memory>
 #include <vector>
@@ -24,8 +25,10 @@ class SparseFactor {
 public:
   virtual ~SparseFactor() = default;
 
-  /// The field x with K_ii x_i = rhs_i and x_c = 0. All processes must call it.
-  virtual FieldVector solve_interior(const FieldVector& rhs, RunStatistics& statistics) const = 0;
+  /// The field x with given x_c and K_ii x_i = rhs_i - K_ic x_c. All processes must call it.
+  /// @param rhs null for zero
+  virtual FieldVector solve(const FieldVector* rhs, const dealii::Vector<double>& contact_values,
+                            RunStatistics& statistics) const = 0;
 
   /// K x. All processes must call it.
   virtual FieldVector apply(const FieldVector& x) const = 0;
