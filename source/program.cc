@@ -62,8 +62,9 @@ void verify(Solution& solution, std::ostream& out) {
       solution.result.errors->exact_distance = find_exact_distance(scene);
     report_verification(out, scene, solution.result, *exact, find_exact_stiffness(scene));
   } else {
-    solution.result.remarks.push_back("no exact solution is known for this scene: " + why);
-    out << "\nNote: " << solution.result.remarks.back() << '\n';
+    const std::string remark = "no exact solution is known for this scene: " + why;
+    solution.result.notes.push_back({Note::Kind::remark, remark});
+    out << "\nNote: " << remark << '\n';
   }
 }
 
@@ -80,14 +81,14 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
   WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) { // which may take long
     attempt([&] { verify(solution, out); }, "the result could not be verified",
-            "leave out --verify", communicator, solution.result.shortfalls);
+            "leave out --verify", communicator, solution.result.notes);
     WrittenFiles again;
     write_summary(directory, parameters, solution, again);
   }
   written.note_older_files(older);
   report_end(out, solution.result.statistics, written);
-  if (!solution.result.shortfalls.empty())
-    throw TargetNotReached(shortfall_text(solution.result));
+  if (const std::string missed = shortfall_text(solution.result); !missed.empty())
+    throw TargetNotReached(missed);
 }
 
 } // namespace

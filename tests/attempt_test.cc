@@ -19,11 +19,11 @@ namespace {
 
 TEST(Attempt, MakesEveryFailureAShortfall) {
   const auto shortfalls_of = [](const std::function<void()>& compute) {
-    std::vector<std::string> shortfalls;
-    attempt(compute, "a part is missing", "change a", MPI_COMM_SELF, shortfalls);
-    for (const std::string& text : shortfalls)
-      EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-    return shortfalls.size();
+    std::vector<Note> notes;
+    attempt(compute, "a part is missing", "change a", MPI_COMM_SELF, notes);
+    for (const Note& note : notes)
+      EXPECT_EQ(note.text.find('\n'), std::string::npos) << note.text;
+    return texts_of(notes, Note::Kind::shortfall).size();
   };
   EXPECT_EQ(shortfalls_of([] {}), 0u);
   EXPECT_EQ(shortfalls_of([] { throw NotSolved("no convergence"); }), 1u);
@@ -46,7 +46,7 @@ TEST(Attempt, FailingCertificateLeavesTheSolution) {
        {"Certificate/Error bound=true", "Mesh/Wanted relative error=1e-3"}) {
     const Result result =
         without_certificate({setting, "Mesh/Indicator=kelly", "Mesh/Most unknowns=30000"});
-    EXPECT_EQ(result.shortfalls.size(), 1u) << setting;
+    EXPECT_EQ(texts_of(result.notes, Note::Kind::shortfall).size(), 1u) << setting;
     EXPECT_FALSE(result.certified);
     EXPECT_NEAR(result.contact.loads.total, 0.33249897643, 1e-4);
     EXPECT_NEAR(result.energy.value, 0.02906970811, 1e-5);

@@ -214,7 +214,7 @@ TEST(Certificate, IsSharpInThinRings) {
           exact = find_exact_solution(scene);
         ASSERT_TRUE(exact);
         const Solution solution = simulate(scene, parameters);
-        EXPECT_TRUE(solution.result.shortfalls.empty());
+        EXPECT_EQ(shortfall_text(solution.result), "");
         EXPECT_LE(solution.result.certified->lower_bound, exact->energy * (1 + 1e-9));
         EXPECT_GE(solution.result.certified->upper_bound, exact->energy * (1 - 1e-9));
         const double n_cells = std::min(std::pow(wanted, -1. / degree),

@@ -16,7 +16,7 @@ std::vector<std::string> remarks_with(const std::vector<std::string>& settings) 
   const Parameters parameters =
       with(with(paper_scenes()[0].parameters(), {"Mesh/Radial cells=8", "Mesh/Angular cells=100"}),
            settings);
-  return simulate(make_scene(parameters), parameters).result.remarks;
+  return texts_of(simulate(make_scene(parameters), parameters).result.notes, Note::Kind::remark);
 }
 
 bool have(const std::vector<std::string>& remarks, const std::string& text) {

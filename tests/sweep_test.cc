@@ -126,7 +126,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
     expect_near("contact.peak_pressure", 1 + single.at("contact.peak_pressure"));
     EXPECT_LE(row.values.at("energy.lower_bound"), single.at("energy.upper_bound") + 1e-12 * size);
     EXPECT_GE(row.values.at("energy.upper_bound"), single.at("energy.lower_bound") - 1e-12 * size);
-    EXPECT_EQ(row.remarks, result.remarks);
+    EXPECT_EQ(row.remarks, texts_of(result.notes, Note::Kind::remark));
   }
 }
 

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -36,8 +37,31 @@ void append_equal(std::vector<double>& places, double begin, double end, int n) 
   places.push_back(end);
 }
 
+/// Two columns of cells that meet in the middle of a given zone. The zone ends where their cells
+/// have been halved @p n_halvings times.
+struct NarrowZone {
+  double width; ///< of each column
+  int n_halvings;
+};
+
+/// Of a zone that is less than half a column wide: cells as wide as the zone would be needles,
+/// which stay so when they are cut in four.
+/// @param n columns
+std::optional<NarrowZone> find_narrow_zone(const Scene& scene, int n) {
+  const double column = 2 * numbers::PI / n, zone = scene.zone_end - scene.zone_begin;
+  if (!scene.has_given_zone || zone > column / 2 || n < 4)
+    return {};
+  constexpr int most_halvings = 20; // which leave some levels to refinement
+  NarrowZone narrow = {zone / 2, 0};
+  while (narrow.n_halvings < most_halvings && 2 * narrow.width < column) {
+    narrow.width *= 2;
+    ++narrow.n_halvings;
+  }
+  return narrow;
+}
+
 /// The angles of the vertices: at equal distances, or nearly so where the user gives a zone of
-/// contact, whose ends must be vertices.
+/// contact, whose ends must be vertices of this mesh or of one with a NarrowZone.
 std::vector<double> angles_of(const Scene& scene, int n) {
   const double end = seam_angle + 2 * numbers::PI;
   std::vector<double> angles = {seam_angle};
@@ -45,15 +69,21 @@ std::vector<double> angles_of(const Scene& scene, int n) {
     append_equal(angles, seam_angle, end, n);
     return angles;
   }
-  const int n_zone = std::clamp<int>(
-      std::lround(n * (scene.zone_end - scene.zone_begin) / (2 * numbers::PI)), 1, n - 2);
+  double begin = scene.zone_begin, stop = scene.zone_end;
+  int n_zone = std::clamp<int>(std::lround(n * (stop - begin) / (2 * numbers::PI)), 1, n - 2);
+  if (const auto narrow = find_narrow_zone(scene, n)) {
+    const double middle = (begin + stop) / 2;
+    begin = middle - narrow->width;
+    stop = middle + narrow->width;
+    n_zone = 2;
+  }
   // Both sides share the remaining columns, so that mirrored zones have mirrored meshes.
-  const double before = scene.zone_begin - seam_angle, after = end - scene.zone_end;
+  const double before = begin - seam_angle, after = end - stop;
   const int n_before =
       std::clamp<int>(std::lround((n - n_zone) * before / (before + after)), 1, n - n_zone - 1);
-  append_equal(angles, seam_angle, scene.zone_begin, n_before);
-  append_equal(angles, scene.zone_begin, scene.zone_end, n_zone);
-  append_equal(angles, scene.zone_end, end, n - n_zone - n_before);
+  append_equal(angles, seam_angle, begin, n_before);
+  append_equal(angles, begin, stop, n_zone);
+  append_equal(angles, stop, end, n - n_zone - n_before);
   return angles;
 }
 
@@ -175,6 +205,21 @@ CoarseMesh coarsen(const Scene& scene, const MeshOptions& mesh) {
   return coarse;
 }
 
+/// Cuts cells at the surface until the ends of a narrow zone are vertices.
+void cut_to_zone(Triangulation<2>& mesh, const Scene& scene, const NarrowZone& narrow) {
+  const auto holds_an_end = [](const auto& cell, double end) {
+    return cell->vertex(0)[1] < end - angular_round_off &&
+           end + angular_round_off < cell->vertex(3)[1];
+  };
+  for (int halving = 0; halving < narrow.n_halvings; ++halving) {
+    for (const auto& cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary(surface_id) &&
+          (holds_an_end(cell, scene.zone_begin) || holds_an_end(cell, scene.zone_end)))
+        cell->set_refine_flag();
+    mesh.execute_coarsening_and_refinement();
+  }
+}
+
 } // namespace
 
 std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& mesh,
@@ -191,9 +236,14 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
 
   auto grid = make_grid(radii_of(scene.inner_radius, scene.outer_radius, coarse.radial_cells),
                         angles_of(scene, coarse.angular_cells));
+  const auto refine = [&](Triangulation<2>& triangulation) {
+    join_seam(triangulation);
+    triangulation.refine_global(coarse.n_refinements);
+    if (const auto narrow = find_narrow_zone(scene, coarse.angular_cells))
+      cut_to_zone(triangulation, scene, *narrow);
+  };
   if (is_serial(communicator)) {
-    join_seam(*grid);
-    grid->refine_global(coarse.n_refinements);
+    refine(*grid);
     return grid;
   }
   // Cells change their process when a refinement is complete, and not before.
@@ -201,8 +251,7 @@ std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshO
   auto shared = std::make_unique<Distributed>(communicator, smoothing,
                                               Distributed::no_automatic_repartitioning);
   shared->copy_triangulation(*grid);
-  join_seam(*shared);
-  shared->refine_global(coarse.n_refinements);
+  refine(*shared);
   constexpr double even_shares = 100; // coarse cells on each process share the refined ones evenly
   if (n_coarse < even_shares * count_processes(communicator))
     shared->repartition();

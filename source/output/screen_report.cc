@@ -214,15 +214,15 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   // The last distance step has found the contact already.
   if (result.distance_history.empty() || result.history.size() > 1)
     report_history(out, result, units);
-  for (const std::string& remark : result.remarks)
+  for (const std::string& remark : texts_of(result.notes, Note::Kind::remark))
     out << "Note: " << remark << '\n';
   out << "\nResult\n";
   report_patches(out, result.contact, units);
   report_quantities(out, result, units);
   if (result.certified)
     report_certificate(out, result, units);
-  if (!result.shortfalls.empty())
-    out << "Shortfall  " << shortfall_text(result) << '\n';
+  if (const std::string missed = shortfall_text(result); !missed.empty())
+    out << "Shortfall  " << missed << '\n';
   report_residuals(out, result);
 }
 

@@ -94,10 +94,10 @@ Json history_json(const Result& result) {
 std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result) {
   Json json;
   json["program"] = version_text();
-  if (!result.shortfalls.empty())
-    json["shortfall"] = shortfall_text(result);
-  if (!result.remarks.empty())
-    json["remarks"] = result.remarks;
+  if (const std::string missed = shortfall_text(result); !missed.empty())
+    json["shortfall"] = missed;
+  if (const auto remarks = texts_of(result.notes, Note::Kind::remark); !remarks.empty())
+    json["remarks"] = remarks;
   json["scene"] = scene_json(scene, options);
   add_quantities(result, scene.units, json);
   json["contact"]["patches"] = patches_json(result, scene.units);

@@ -29,14 +29,13 @@ std::string reason_of(const std::exception& failure) {
 }
 
 void attempt(const std::function<void()>& compute, const std::string& missing,
-             const std::string& advice, MPI_Comm communicator,
-             std::vector<std::string>& shortfalls) {
+             const std::string& advice, MPI_Comm communicator, std::vector<Note>& notes) {
   try {
     compute();
   } catch (const std::exception& failure) {
     if (!is_serial(communicator) && !dynamic_cast<const NotSolved*>(&failure))
       throw;
-    shortfalls.push_back(missing + ": " + reason_of(failure) + "; " + advice);
+    notes.push_back({Note::Kind::shortfall, missing + ": " + reason_of(failure) + "; " + advice});
   }
 }
 

@@ -1,5 +1,6 @@
 #include "rollwave/run/remarks.h"
 
+#include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
 #include "rollwave/mesh/surface_trace.h"
 
@@ -133,36 +134,48 @@ std::string remark_on_curvature(const Scene& scene) {
          ", less than a tenth of the cylinder's; Road/Curvature is one over the radius";
 }
 
+/// On the error, wanted but not reached.
+std::string shortfall_of_error(const RunOptions& options, const Mesh& mesh, const Result& result) {
+  const double wanted = options.mesh.wanted_relative_error;
+  if (!(wanted > 0) || !result.certified || result.certified->relative <= wanted)
+    return {};
+  return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
+         ", wanted " + rounded(wanted, 6) + "; " +
+         (is_at_finest_level(*mesh.triangulation)
+              ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
+                "Mesh/Angular cells, or Mesh/Wanted relative error"
+              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error");
+}
+
+/// On conditions of contact and equilibrium that do not hold to Residuals::allowed.
+std::string shortfall_of_residuals(const RunOptions& options, const Residuals& residuals) {
+  if (residuals.largest() <= residuals.allowed ||
+      options.contact.method != ContactMethod::active_set)
+    return {};
+  return "the conditions of contact and equilibrium hold to " + rounded(residuals.largest(), 6) +
+         " only, wanted " + rounded(residuals.allowed, 6) +
+         ": use fewer unknowns, cells that are less stretched, or a larger hub";
+}
+
 } // namespace
 
-std::vector<std::string> remarks_on(const RunOptions& options, const MeshSolution& solution,
-                                    const Result& result) {
+std::vector<Note> notes_on(const RunOptions& options, const Mesh& mesh,
+                           const MeshSolution& solution, const Result& result) {
   const Scene& scene = solution.scene;
-  std::vector<std::string> remarks;
+  std::vector<Note> notes;
   for (const std::string& remark :
        {remark_on_zone_ends(scene, result), remark_on_depth_outside(scene, result),
         remark_on_certificate(options, result), remark_on_force(result),
         remark_on_resolution(solution, result), remark_on_displacement(scene, result),
         remark_on_speed(options), remark_on_curvature(scene)})
     if (!remark.empty())
-      remarks.push_back(remark);
-  return remarks;
-}
-
-std::string missing_error_text(const RunOptions& options, const Result& result,
-                               bool is_at_finest_level) {
-  return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
-         ", wanted " + rounded(options.mesh.wanted_relative_error, 6) + "; " +
-         (is_at_finest_level
-              ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
-                "Mesh/Angular cells, or Mesh/Wanted relative error"
-              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error");
-}
-
-std::string residual_text(const Residuals& residuals) {
-  return "the conditions of contact and equilibrium hold to " + rounded(residuals.largest(), 6) +
-         " only, wanted " + rounded(residuals.allowed, 6) +
-         ": use fewer unknowns, cells that are less stretched, or a larger hub";
+      notes.push_back({Note::Kind::remark, remark});
+  if (const std::string missed = shortfall_of_error(options, mesh, result); !missed.empty())
+    notes.push_back({Note::Kind::shortfall, missed});
+  else if (const std::string inexact = shortfall_of_residuals(options, result.residuals);
+           !inexact.empty() && shortfall_text(result).empty())
+    notes.push_back({Note::Kind::shortfall, inexact});
+  return notes;
 }
 
 } // namespace rollwave

@@ -11,7 +11,7 @@ double Residuals::largest() const {
 }
 
 std::string shortfall_text(const Result& result) {
-  return boost::algorithm::join(result.shortfalls, "; ");
+  return boost::algorithm::join(texts_of(result.notes, Note::Kind::shortfall), "; ");
 }
 
 } // namespace rollwave

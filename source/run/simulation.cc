@@ -7,8 +7,7 @@
 #include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
-#include "rollwave/run/measure.h"
-#include "rollwave/run/remarks.h"
+#include "rollwave/run/make_result.h"
 #include "rollwave/run/solve_on_mesh.h"
 
 #include <cmath>
@@ -67,7 +66,7 @@ std::optional<Certificate> certify_solution(const RunOptions& options, const Loa
       },
       "the error could not be certified",
       "use fewer unknowns, or set Certificate/Error bound to false", space.communicator(),
-      solution.shortfalls);
+      solution.notes);
   return certificate;
 }
 
@@ -135,22 +134,7 @@ void add_stiffness(const System& system, const Load* load, MeshSolution& solutio
             solution.problem, solution.contact, no_limit, statistics);
       },
       "the stiffness could not be computed", "use cells that are less stretched",
-      solution.boundary.space().communicator(), solution.shortfalls);
-}
-
-/// Adds the targets that were not reached, and the remarks.
-void add_shortfalls_and_remarks(const RunOptions& options, const Mesh& mesh,
-                                const MeshSolution& solution,
-                                const std::optional<Certificate>& certificate, Result& result) {
-  const bool wants_error = options.mesh.wanted_relative_error > 0;
-  if (wants_error && certificate && !is_reached(options, certificate))
-    result.shortfalls.push_back(
-        missing_error_text(options, result, is_at_finest_level(*mesh.triangulation)));
-  else if (result.shortfalls.empty() && result.residuals.largest() > result.residuals.allowed &&
-           options.contact.method == ContactMethod::active_set)
-    result.shortfalls.push_back(residual_text(result.residuals));
-  for (const std::string& remark : remarks_on(options, solution, result))
-    result.remarks.push_back(remark);
+      solution.boundary.space().communicator(), solution.notes);
 }
 
 /// The solution of a run from that on its last mesh. @throws BadValue for a load out of reach
@@ -159,13 +143,8 @@ Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
                 bool is_interrupted, RunStatistics statistics) {
   if (last.load_refusal)
     throw BadValue("Road", "Load", *last.load_refusal);
-  Result result = measure(last);
-  result.cycles = std::move(cycles);
-  result.is_interrupted = is_interrupted;
-  if (certificate)
-    result.certified = certificate->error;
-  add_shortfalls_and_remarks(options, mesh, last, certificate, result);
-  result.statistics = std::move(statistics);
+  Result result = make_result(options, mesh, last, certificate, std::move(cycles), is_interrupted,
+                              std::move(statistics));
   return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
           std::move(result)};
 }
@@ -190,7 +169,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     const bool ends = is_last(options, mesh, certificate, cycles.size());
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
-      solution.shortfalls.push_back(interrupted_text(cycles.size()));
+      solution.notes.push_back({Note::Kind::shortfall, interrupted_text(cycles.size())});
     bool goes_on = !ends && !is_stopped;
     if (goes_on) {
       scene = solution.scene;

@@ -64,7 +64,7 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
     solution.scene = with_distance(solution.scene, road.distance);
     solution.load_refusal = std::move(road.refusal);
     if (road.shortfall)
-      solution.shortfalls.push_back(*road.shortfall);
+      solution.notes.push_back({Note::Kind::shortfall, *road.shortfall});
     pressure = std::move(road.pressure);
     solution.distance_history = std::move(road.history);
   }
@@ -72,7 +72,7 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
   solution.contact =
       solve_contact(equations, solution.problem, options, pressure, statistics, step_ended);
   if (!solution.contact.remark.empty())
-    solution.remarks.push_back(solution.contact.remark);
+    solution.notes.push_back({Note::Kind::remark, solution.contact.remark});
 }
 
 } // namespace
@@ -139,9 +139,10 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
                                         solution.problem, solution.contact);
   if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
     solution.resultants.loads.work_conjugate.reset();
-    solution.remarks.push_back("contact reaches the tangent of the drum on this mesh, where the "
-                               "work-conjugate load and the stiffness are not resolved: they are "
-                               "left out");
+    solution.notes.push_back({Note::Kind::remark,
+                              "contact reaches the tangent of the drum on this mesh, where the "
+                              "work-conjugate load and the stiffness are not resolved: they are "
+                              "left out"});
   }
   FieldVector stiffness_times_u = system.factor->apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;

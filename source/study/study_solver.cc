@@ -190,7 +190,8 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
   run.values = values_of(result, scene.units);
   run.pressure = pressure_of(result, scene.units);
   run.failure = shortfall_text(result);
-  run.remarks.insert(run.remarks.begin(), result.remarks.begin(), result.remarks.end());
+  const auto remarks = texts_of(result.notes, Note::Kind::remark);
+  run.remarks.insert(run.remarks.begin(), remarks.begin(), remarks.end());
 }
 
 /// Those of a run that writes its own files.

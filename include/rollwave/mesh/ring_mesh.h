@@ -45,7 +45,8 @@ void check_mesh_size(const MeshOptions& mesh);
  * `Mesh/Global refinements` times, periodic over the seam. Heights grow geometrically near a small
  * hub. If `Road/Contact zone` is given, its ends are vertices, and cells inside and outside of it
  * differ in length: a zone that ended inside of cells would cut the contact short at another place
- * on every mesh.
+ * on every mesh. Where the zone is narrower than half a cell, cells at its ends are cut in four
+ * until they are as narrow.
  *
  * On several processes each has a part of the refined mesh, and the coarse one as a whole.
  *

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rollwave/run/note.h"
+
 #include <mpi.h>
 
 #include <exception>
@@ -13,12 +15,11 @@ namespace rollwave {
 std::string reason_of(const std::exception& failure);
 
 /// Computes an additional part of a result, such as the certificate. If that fails, the solution is
-/// kept, and the failure is added to @p shortfalls.
+/// kept, and the failure becomes a shortfall among the @p notes.
 /// @param missing such as "the error could not be certified"
 /// @param advice the change that helps
 /// @throws on several processes any exception except NotSolved: a single process may have thrown it
 void attempt(const std::function<void()>& compute, const std::string& missing,
-             const std::string& advice, MPI_Comm communicator,
-             std::vector<std::string>& shortfalls);
+             const std::string& advice, MPI_Comm communicator, std::vector<Note>& notes);
 
 } // namespace rollwave

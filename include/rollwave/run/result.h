@@ -4,6 +4,7 @@
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/error_bound/error_bound.h"
+#include "rollwave/run/note.h"
 #include "rollwave/scene/units.h"
 
 #include <optional>
@@ -105,10 +106,8 @@ struct Result {
   std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load is given
   std::vector<ContactStep> history;           ///< on the last mesh
   std::optional<StepLength> step_length;      ///< of Uzawa's method
-  std::vector<std::string> remarks;           ///< notes for the reader
-  /// Targets that were not reached, with the keys to change.
-  std::vector<std::string> shortfalls;
-  bool is_interrupted = false; ///< by the user: the shortfalls say after what
+  std::vector<Note> notes;
+  bool is_interrupted = false; ///< by the user: a shortfall says after what
   std::vector<ContactRow> contact_rows;
   std::vector<SurfacePoint> surface;
   RunStatistics statistics;

@@ -46,9 +46,7 @@ struct MeshSolution {
   std::optional<std::string> load_refusal = {};    ///< see RoadPosition::refusal
   Energy energy = {};                              ///< of u_h
   Residuals residuals = {};
-  std::vector<std::string> remarks = {};    ///< anything unusual that the user should know
-  std::vector<std::string> shortfalls = {}; ///< targets that were not reached, with the keys to
-                                            ///< change
+  std::vector<Note> notes = {};
 };
 
 /// The contact pressure of a solution.

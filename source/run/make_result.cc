@@ -1,8 +1,11 @@
-#include "rollwave/run/measure.h"
+#include "rollwave/run/make_result.h"
 
 #include "rollwave/mesh/contact_boundary.h"
+#include "rollwave/run/remarks.h"
 
 #include <deal.II/grid/tria.h>
+
+#include <utility>
 
 namespace rollwave {
 
@@ -48,25 +51,33 @@ std::vector<SurfacePoint> tabulate_surface(const ContactBoundary& boundary,
 
 } // namespace
 
-Result measure(const MeshSolution& solution) {
+Result make_result(const RunOptions& options, const Mesh& mesh, const MeshSolution& solution,
+                   const std::optional<Certificate>& certificate, std::vector<CycleFigures> cycles,
+                   bool is_interrupted, RunStatistics statistics) {
+  const Scene& scene = solution.scene;
   const ContactState& state = solution.contact.state;
   Result result = {};
   result.mesh = describe_mesh(solution.boundary);
-  result.road_distance = solution.scene.road.distance;
-  result.deflection = solution.scene.outer_radius - solution.scene.road.distance;
-  result.relative_deflection =
-      result.deflection / (solution.scene.outer_radius - solution.scene.inner_radius);
-  result.distance_history = solution.distance_history;
+  result.road_distance = scene.road.distance;
+  result.deflection = scene.outer_radius - scene.road.distance;
+  result.relative_deflection = result.deflection / (scene.outer_radius - scene.inner_radius);
   result.contact = solution.resultants;
   result.energy = solution.energy;
   result.residuals = solution.residuals;
+  if (certificate)
+    result.certified = certificate->error;
+  result.cycles = std::move(cycles);
+  result.distance_history = solution.distance_history;
   result.history = solution.contact.history;
   result.step_length = solution.contact.step_length;
-  result.remarks = solution.remarks;
-  result.shortfalls = solution.shortfalls;
+  result.is_interrupted = is_interrupted;
   result.contact_rows = tabulate_contact(solution.boundary, solution.problem, state);
   result.surface = tabulate_surface(solution.boundary, solution.displacement,
                                     solution.problem.pressures(state.force));
+  result.notes = solution.notes;
+  for (Note& note : notes_on(options, mesh, solution, result))
+    result.notes.push_back(std::move(note));
+  result.statistics = std::move(statistics);
   return result;
 }
 
