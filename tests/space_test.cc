@@ -59,6 +59,18 @@ TEST_P(Space, ListsTheContactNodesOfTheZoneInOrder) {
   }
 }
 
+TEST_P(Space, HasTheEndsOfAGivenZoneAmongItsNodes) {
+  for (const std::string width : {"1e-7", "1e-3", "0.1", "0.3", "1"}) {
+    const Parameters given = with(parameters, {"Road/Contact zone=4.6, 4.6 + " + width});
+    const Scene scene = make_scene(given);
+    const MeshAndSpace ring(scene, given);
+    const auto& nodes = ring.boundary.contact_nodes();
+    EXPECT_NEAR(nodes.front().angle, scene.zone_begin, 1e-13) << width;
+    EXPECT_NEAR(nodes.back().angle, scene.zone_end, 1e-13) << width;
+    EXPECT_LT(nodes.size(), 60u) << width;
+  }
+}
+
 TEST_P(Space, NumbersTheContactNodesAmongTheSurfaceNodes) {
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
