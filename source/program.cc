@@ -35,8 +35,8 @@ void run_and_report_study(Study& study, const Parameters& parameters,
   if (study.part)
     out << "\nPart " << study.part->number << " of " << study.part->count << ": " << n_made
         << " runs made, " << study.n_ended() - n_made
-        << " reused. When all parts have ended, the same command without --part joins them."
-        << std::endl;
+        << " reused. When all parts have ended, join them with: rollwave "
+        << std::filesystem::path(parameters.output.directory) / "parameters.prm" << std::endl;
   else if (process_number(communicator) == 0) {
     out << '\n' << table_as_text(study);
     print_study_notes(out, study);

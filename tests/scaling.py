@@ -18,6 +18,7 @@ SCENES = [
     ('adaptive to 1e-5', {'Mesh/Radial cells': 2, 'Mesh/Angular cells': 24,
                           'Mesh/Wanted relative error': 1e-5}),
     ('96 x 1194 cells', {'Mesh/Radial cells': 96, 'Mesh/Angular cells': 1194}),
+    ('288 x 3456 linear cells', {'Mesh/Degree': 1, 'Mesh/Radial cells': 288, 'Mesh/Angular cells': 3456}),
     ('29 x 272 cells, 3 refinements', {'Mesh/Radial cells': 29, 'Mesh/Angular cells': 272,
                                        'Mesh/Global refinements': 3}),
 ]

@@ -65,8 +65,11 @@ LowerTriplets own_entries(const TrilinosWrappers::SparseMatrix& matrix) {
 std::unique_ptr<const SparseFactor> DistributedMatrix::factorise(RunStatistics& statistics) {
   matrix->compress(VectorOperation::add);
   const int n = space.dof_handler().n_dofs();
+  LowerTriplets entries = own_entries(*matrix);
+  if (contact_rows.empty())
+    matrix.reset(); // frees its memory first
   auto factor =
-      std::make_unique<MumpsFactor>(space.communicator(), n, own_entries(*matrix), contact_rows);
+      std::make_unique<MumpsFactor>(space.communicator(), n, std::move(entries), contact_rows);
   ++statistics.orderings;
   require_memory(factor->needed_memory(),
                  "the factor for " + std::to_string(space.n_unknowns()) + " unknowns",
@@ -97,10 +100,11 @@ FieldVector DistributedFactor::solve(const FieldVector* rhs, const Vector<double
       if (field.in_local_range(contact_rows[i]))
         field(contact_rows[i]) = contact_values(i);
   };
-  FieldVector x = space.make_field();
-  set_contact_values(x);
-  FieldVector interior_rhs = apply(x);
-  interior_rhs *= -1;
+  FieldVector x = space.make_field(), interior_rhs = space.make_field();
+  if (!contact_rows.empty()) {
+    set_contact_values(x);
+    interior_rhs -= apply(x);
+  }
   if (rhs)
     interior_rhs += *rhs;
   const MPI_Comm communicator = space.communicator();

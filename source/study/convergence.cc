@@ -147,9 +147,11 @@ std::vector<Family> find_families(const Study& study) {
   std::map<std::string, unsigned int> number_of;
   for (unsigned int i = 0; i < study.plans.size(); ++i) {
     const RunPlan& plan = study.plans[i];
-    const std::string name = label(plan, [](const Setting& setting) {
-      return (key_of(setting).affects & Affects::resolution) == 0;
-    });
+    std::vector<Setting> others; // than those that make a mesh finer
+    for (const Setting& setting : plan.varied)
+      if ((key_of(setting).affects & Affects::resolution) == 0)
+        others.push_back(setting);
+    const std::string name = label(plan, others);
     const auto [entry, is_first] = number_of.emplace(name, families.size());
     if (is_first)
       families.push_back({name, {}, false});

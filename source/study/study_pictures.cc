@@ -76,9 +76,8 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
   const bool has_bounds = quantity == "contact.vertical_load";
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
-    const Setting* const last = &fastest_key(study, plan);
-    const std::string title =
-        label(plan, [last](const Setting& setting) { return &setting < last; });
+    const auto fastest = plan.varied.begin() + study.first_key_of_part.back();
+    const std::string title = label(plan, {plan.varied.begin(), fastest});
     // The runs of one curve follow each other, so that a new title begins a new curve.
     if (curves.empty() || curves.back().title != title)
       curves.push_back({title, {}, {}});
@@ -191,7 +190,7 @@ Panel profile_panel(const Study& study) {
               {}};
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run] && !study.runs[run]->pressure.empty()) {
-      panel.curves.push_back({label(study.plans[run], [](const Setting&) { return true; }), {}});
+      panel.curves.push_back({label(study.plans[run], study.plans[run].varied), {}});
       const RunOptions& parameters = study.plans[run].parameters;
       const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
                          parameters.road.curvature}; // in the user's units

@@ -134,11 +134,10 @@ std::string key_with_value(const Setting& setting, const Units& units) {
          units.after(key.quantity);
 }
 
-std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_named) {
+std::string label(const RunPlan& plan, const std::vector<Setting>& named) {
   std::string text = plan.scene;
-  for (const Setting& setting : plan.varied)
-    if (is_named(setting))
-      text += (text.empty() ? "" : ", ") + key_with_value(setting, {1, plan.parameters.material});
+  for (const Setting& setting : named)
+    text += (text.empty() ? "" : ", ") + key_with_value(setting, {1, plan.parameters.material});
   return text;
 }
 

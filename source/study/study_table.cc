@@ -87,7 +87,7 @@ void print_first(std::ostream& out, const std::string& title,
 std::string line_of_run(const Study& study, unsigned int run) {
   std::ostringstream line;
   line << run + 1 << " of " << study.plans.size() << "  "
-       << label(study.plans[run], [](const Setting&) { return true; }) << ":  ";
+       << label(study.plans[run], study.plans[run].varied) << ":  ";
   const bool has_load = study.plans[run].parameters.road.load.has_value();
   const ResultQuantity& result = result_quantity(has_load               ? "scene.road_distance"
                                                  : study.is_of_scenes() ? "contact.vertical_load"

@@ -30,7 +30,7 @@ public:
   virtual FieldVector solve(const FieldVector* rhs, const dealii::Vector<double>& contact_values,
                             RunStatistics& statistics) const = 0;
 
-  /// K x. All processes must call it.
+  /// K x, for a matrix with contact nodes: others are not kept. All processes must call it.
   virtual FieldVector apply(const FieldVector& x) const = 0;
 
   /// The lower triangular L with L L^T = S, on all processes.

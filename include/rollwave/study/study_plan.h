@@ -3,7 +3,6 @@
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/scene/units.h"
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,7 +41,7 @@ std::string axis_label(const Setting& setting, const Units& units);
 /// A key with its value, such as "c = 0.8 m" or "degree 2".
 std::string key_with_value(const Setting& setting, const Units& units);
 
-/// The scene and the settings for which @p is_named, as text: "c = 0.8, degree 2".
-std::string label(const RunPlan& plan, const std::function<bool(const Setting&)>& is_named);
+/// The scene of a plan and some of its settings as text: "c = 0.8, degree 2".
+std::string label(const RunPlan& plan, const std::vector<Setting>& named);
 
 } // namespace rollwave
