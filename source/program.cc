@@ -28,14 +28,14 @@ namespace rollwave {
 namespace {
 
 void run_and_report_study(Study& study, const Parameters& parameters,
-                          const std::vector<std::filesystem::path>& older, MPI_Comm communicator,
-                          std::ostream& out) {
+                          const std::vector<std::filesystem::path>& older,
+                          const std::string& program, MPI_Comm communicator, std::ostream& out) {
   out << version_text() << "\n\n";
   const unsigned int n_made = run_study(study, parameters, out, communicator);
   if (study.part)
     out << "\nPart " << study.part->number << " of " << study.part->count << ": " << n_made
         << " runs made, " << study.n_ended() - n_made
-        << " reused. When all parts have ended, join them with: rollwave "
+        << " reused. When all parts have ended, join them with: " << program << ' '
         << std::filesystem::path(parameters.output.directory) / "parameters.prm" << std::endl;
   else if (process_number(communicator) == 0) {
     out << '\n' << table_as_text(study);
@@ -114,7 +114,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
-      run_and_report_study(study, parameters, older, communicator, out);
+      run_and_report_study(study, parameters, older, line.program, communicator, out);
     else
       solve_scene(scene, parameters, older, communicator, line.verify, out);
   } catch (const BadValue& value) {

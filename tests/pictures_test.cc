@@ -74,6 +74,7 @@ protected:
       command += " --set '" + setting + '\'';
     const Outcome outcome = shell(command);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find("not drawn"), std::string::npos) << outcome.text;
   }
 
   /// Draws a picture and returns it as text.

@@ -110,7 +110,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
   std::filesystem::remove_all(directory);
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
-    SCOPED_TRACE(label(plan, [](const Setting&) { return true; }));
+    SCOPED_TRACE(label(plan, plan.varied));
     const StudyRun& row = *study.runs[run];
     ASSERT_TRUE(row.is_solved()) << row.failure;
     const Scene scene = make_scene(plan.parameters);

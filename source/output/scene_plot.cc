@@ -50,7 +50,7 @@ std::string title_of(const Scene& scene, const Result& result) {
         << ", omega / critical = " << scene.angular_velocity * scene.outer_radius
         << ", vertical load = " << in_units(result.contact.loads.vertical, Quantity::force);
   if (units.material.is_given())
-    title << "'.\"\n\".'"
+    title << "'.\"\\n\".'"
           << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
           << ", rho = " << units.material.density << units.after(Quantity::density)
           << ", width = " << units.material.width << units.after(Quantity::length);

@@ -104,6 +104,8 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
                                             : std::string("no relative bound"))
       << "\n           (of the displacement u_h; for the other numbers see Accuracy in "
          "doc/manual.md)\n";
+  if (units.material.is_given())
+    out << "           (of the model; for its modulus see Material in doc/manual.md)\n";
   const double outside = std::max(certified.lower_bound - result.energy.value,
                                   result.energy.value - certified.upper_bound);
   if (outside > 0)

@@ -40,13 +40,14 @@ std::string without_quotes(const std::string& text) {
 /// a colon. @throws BadInput for numbers that are no such range
 std::vector<std::string> values_of(const std::string& text) {
   const auto parts = split(text, ':');
+  const bool is_open = std::count(parts.begin(), parts.end(), "") > 0;
   std::vector<double> numbers;
   for (const std::string& part : parts)
     if (const auto number = value_if_any(part))
       numbers.push_back(*number);
-  if (parts.size() < 2 || numbers.size() < parts.size())
+  if (parts.size() < 2 || (numbers.size() < parts.size() && !is_open))
     return {text};
-  if (parts.size() != 3)
+  if (parts.size() != 3 || is_open)
     throw BadInput(in_quotes(text) + " is no range first : last : step");
   const double first = numbers[0], last = numbers[1], step = numbers[2];
   constexpr unsigned int most_values = 100000;
@@ -89,7 +90,9 @@ Variation parse_variation(const std::string& text, const Setting& study) {
       variation.back().push_back(parse_run_setting(names[k] + '=' + values[k], study));
   };
   for (const std::string& choice : split_unquoted(text.substr(equals + 1), '|'))
-    if (names.size() > 1)
+    if (choice.empty())
+      throw BadInput(in_quotes(text) + " has no value before or after a |");
+    else if (names.size() > 1)
       add(split_unquoted(choice, '&'));
     else
       for (const std::string& value : values_of(choice))

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <map>
 #include <optional>
 #include <ostream>
@@ -62,15 +63,23 @@ std::vector<unsigned int> meshes_of(const Study& study, const Family& family) {
   return meshes;
 }
 
-/// The errors that are known on all meshes, and whose orders are reported.
+/// Those of the meshes on which an error is known: the finest may be below the accuracy of the
+/// exact answer.
+std::vector<unsigned int> meshes_with(const Study& study, std::vector<unsigned int> meshes,
+                                      const ResultQuantity& error) {
+  meshes.erase(std::remove_if(
+                   meshes.begin(), meshes.end(),
+                   [&](unsigned int run) { return study.value(run, error.name).value_or(0) <= 0; }),
+               meshes.end());
+  return meshes;
+}
+
+/// The errors whose orders are reported: those that are known on two meshes or more.
 std::vector<ResultQuantity> known_errors(const Study& study,
                                          const std::vector<unsigned int>& meshes) {
   std::vector<ResultQuantity> errors;
   for (const ResultQuantity& quantity : result_quantities())
-    if ((quantity.shown & Shown::orders) &&
-        std::all_of(meshes.begin(), meshes.end(), [&](unsigned int run) {
-          return study.value(run, quantity.name).value_or(0) > 0;
-        }))
+    if ((quantity.shown & Shown::orders) && meshes_with(study, meshes, quantity).size() > 1)
       errors.push_back(quantity);
   return errors;
 }
@@ -89,7 +98,7 @@ bool changes_both_directions(const Study& study, const std::vector<unsigned int>
          }) == meshes.end();
 }
 
-/// The errors on all meshes with their orders from one to the next.
+/// The errors on all meshes with their orders from one to the next; "nan" where they are not known.
 void print_errors(std::ostream& out, const Study& study, const Family& family,
                   const std::vector<unsigned int>& meshes,
                   const std::vector<ResultQuantity>& errors) {
@@ -103,9 +112,11 @@ void print_errors(std::ostream& out, const Study& study, const Family& family,
   for (const ResultQuantity& error : errors) {
     const std::string title = error.symbol + study.units().in_brackets(error.quantity);
     for (const unsigned int run : meshes) {
-      const double value = *study.value(run, error.name);
-      table.add_value(title,
-                      error.shown & Shown::upper_bound ? std::stod(rounded_up(value, 4)) : value);
+      const auto value = study.value(run, error.name);
+      const bool is_bound = error.shown & Shown::upper_bound;
+      table.add_value(title, !value      ? std::numeric_limits<double>::quiet_NaN()
+                             : !is_bound ? *value
+                                         : std::stod(rounded_up(*value, 4)));
     }
     table.set_precision(title, 3); // after the first digit
     table.set_scientific(title, true);
@@ -115,18 +126,23 @@ void print_errors(std::ostream& out, const Study& study, const Family& family,
   out << table_text(table);
 }
 
-/// The orders over the last four meshes.
+/// The orders over the last four meshes with each error.
 void print_fits(std::ostream& out, const Study& study, const Family& family,
-                std::vector<unsigned int> meshes, const std::vector<ResultQuantity>& errors) {
-  constexpr std::size_t most_meshes = 4;
-  meshes.erase(meshes.begin(), meshes.end() - std::min(most_meshes, meshes.size()));
-  const auto expected = family.is_adaptive || changes_both_directions(study, meshes)
+                const std::vector<unsigned int>& meshes,
+                const std::vector<ResultQuantity>& errors) {
+  const bool is_cut_in_four = most_cycles(study.plans[meshes.back()].parameters.mesh) > 0;
+  const auto expected = is_cut_in_four || changes_both_directions(study, meshes)
                             ? study.value(meshes.back(), "error.expected_order")
                             : std::nullopt;
   std::string separator = "Fitted, +- standard error: ";
   for (const ResultQuantity& error : errors) {
+    auto last = meshes_with(study, meshes, error);
+    constexpr std::size_t most_meshes = 4;
+    last.erase(last.begin(), last.end() - std::min(most_meshes, last.size()));
+    if (last.size() < 3)
+      continue;
     std::vector<double> x, y;
-    for (const unsigned int run : meshes) {
+    for (const unsigned int run : last) {
       x.push_back(-std::log(*abscissa(study, family, run)));
       y.push_back(-std::log(*study.value(run, error.name)));
     }
@@ -157,7 +173,9 @@ std::vector<Family> find_families(const Study& study) {
       families.push_back({name, {}, false});
     Family& family = families[entry->second];
     family.runs.push_back(i);
-    family.is_adaptive = family.is_adaptive || most_cycles(plan.parameters.mesh) > 0;
+    const RefinementOptions& options = plan.parameters.mesh;
+    family.is_adaptive =
+        family.is_adaptive || (most_cycles(options) > 0 && options.marking != Marking::all);
   }
   return families;
 }

@@ -162,8 +162,8 @@ double expected_order(double degree, bool is_uniform, double end_exponent) {
   const bool is_cut = end_exponent<0, is_critical = end_exponent> - 0.4; // -1/2 or -1/3 if cut
   if (is_uniform)
     return is_cut ? 0.5 : std::min(degree, 1.5);
-  // At the critical speed l^(-1/3) cells lie next to an end that is graded down to cells of the
-  // size l, since the natural ones are longer along z than high. The end leaves l^(1/2).
+  // At the critical speed what has the length l along z reaches l^(2/3) deep, so that l^(-1/3)
+  // square cells lie next to an end that is graded down to the size l. The end leaves l^(1/2).
   return is_cut && is_critical ? std::min(degree, 3.) : degree;
 }
 

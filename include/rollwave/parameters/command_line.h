@@ -16,10 +16,11 @@ namespace rollwave {
 struct CommandLine {
   enum class Action { run, help, version, parameters, quantities };
   Action action = Action::run;
-  std::filesystem::path file;    ///< the parameter file to run
-  bool verify = false;           ///< compare with the exact solution
-  std::vector<Setting> settings; ///< of --set and --output, in their order
-  std::optional<StudyPart> part; ///< of a study
+  std::filesystem::path file;       ///< the parameter file to run
+  bool verify = false;              ///< compare with the exact solution
+  std::vector<Setting> settings;    ///< of --set and --output, in their order
+  std::optional<StudyPart> part;    ///< of a study
+  std::string program = "rollwave"; ///< as it was called
 };
 
 /// @throws BadInput for arguments that are not understood.

@@ -12,7 +12,7 @@ namespace rollwave {
 struct Family {
   std::string name; ///< the settings that they have in common
   std::vector<unsigned int> runs;
-  bool is_adaptive; ///< true if any of them refines adaptively
+  bool is_adaptive; ///< true if any of them cuts a part of its cells
 };
 
 std::vector<Family> find_families(const Study& study);
