@@ -174,7 +174,7 @@ TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& ex
   const FieldVector& field = solution.displacement;
   const Result& result = solution.result;
   const bool is_cut = exact.end_exponent < 0;
-  const double floor = (is_cut ? 1e-5 : 5e-6) * std::sqrt(exact.norm_squared);
+  const double floor = (is_cut ? 3e-5 : 5e-6) * std::sqrt(exact.norm_squared);
   const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
 
   const SurfaceTrace trace(space, field);

@@ -12,7 +12,7 @@ namespace rollwave {
  *     a(u - u_h, u - u_h) = a(u, u) - 2 a(u, u_h) + a(u_h, u_h),
  *     a(u, u_h) = (f, u_h) - b int lambda u_h dz.
  *
- * Cancellation hides relative errors below about 5e-6, or 1e-5 if the zone cuts the contact short
+ * Cancellation hides relative errors below about 5e-6, or 3e-5 if the zone cuts the contact short
  * and the exact pressure is singular. An exact pressure that is not resolved may hide larger ones;
  * then a(u - v, u - v) is clearly more than 2 (J(v) - J(u)). The pressures are compared at the
  * nodes by the rule [.,.]_h, without nodes at which the exact one is singular.
