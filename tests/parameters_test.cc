@@ -477,7 +477,7 @@ TEST(Parameters, RefuseAnAutomaticZoneBetweenTwoNodes) {
 
 TEST(Parameters, EndsOfAGivenZoneAreVertices) {
   for (const auto& [zone, cells] : std::vector<std::pair<std::string, std::string>>{
-           {"4.7, 4.71", "20"}, {"3.2, 6.2", "3"}, {"4.1, 5.2", "31"}}) {
+           {"4.6, 4.8", "20"}, {"3.2, 6.2", "3"}, {"4.1, 5.2", "31"}}) {
     const Parameters parameters =
         parameters_of({"Road/Contact zone=" + zone, "Mesh/Angular cells=" + cells});
     const Scene scene = make_scene(parameters);
