@@ -81,8 +81,7 @@ Vector<double> scaled_indicators(const Triangulation<2>& triangulation,
 
 /// The indicator from which on cells are marked: the largest t for which the indicators from t on
 /// hold @p fraction of the sum of all squares, but not less than least_indicator.
-double marking_threshold(const Vector<double>& indicators, double fraction,
-                         MPI_Comm communicator) {
+double marking_threshold(const Vector<double>& indicators, double fraction, MPI_Comm communicator) {
   const auto sum_from = [&](double t) {
     double sum = 0;
     for (const double indicator : indicators)
