@@ -62,6 +62,22 @@ void expect_exact_loads(const std::vector<std::string>& settings) {
     }
 }
 
+// F is measured by w = ln(r/a) / ln(b/a), and a force that Q_h misses by delta widens the interval.
+TEST(LoadBounds, HaveTheNormOfTheirFunctionAndThePartOfTheForce) {
+  const Parameters parameters =
+      parameters_of({"Cylinder/Radial force=cos(3*z)*r", "Mesh/Radial cells=4",
+                     "Mesh/Angular cells=100", "Mesh/Degree=1"});
+  const Scene scene = make_scene(parameters);
+  const double norm_squared = load_functions(scene)[0].norm_squared();
+  EXPECT_NEAR(norm_squared, 2 * PI / std::log(scene.outer_radius / scene.inner_radius), 1e-12);
+  const CertifiedError certified = *simulate(scene, parameters).result.certified;
+  const Interval& load = certified.loads.total;
+  ASSERT_GT(load.lower, 0);
+  ASSERT_GT(certified.force_data, 0);
+  EXPECT_GE((load.upper - load.lower) / 2,
+            (certified.eta / 2 + 2 * certified.force_data) * std::sqrt(norm_squared) * (1 - 1e-9));
+}
+
 TEST(LoadBounds, ContainTheLoadsOfThePaper) {
   for (const PaperScene& paper : paper_scenes())
     expect_exact_loads({assignment("Cylinder/Angular velocity", paper.angular_velocity),
