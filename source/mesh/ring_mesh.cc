@@ -44,8 +44,8 @@ struct NarrowZone {
   int n_halvings;
 };
 
-/// Of a zone that is less than half a column wide: cells as wide as the zone would be needles,
-/// which stay so when they are cut in four.
+/// The two columns for a zone that is less than half a column wide; nullopt for other zones. Cells
+/// as wide as such a zone would be needles, and would stay needles when they are cut in four.
 /// @param n columns
 std::optional<NarrowZone> find_narrow_zone(const Scene& scene, int n) {
   const double column = 2 * numbers::PI / n, zone = scene.zone_end - scene.zone_begin;
