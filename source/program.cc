@@ -7,7 +7,6 @@
 #include "rollwave/output/progress_report.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/output/screen_report.h"
-#include "rollwave/output/verification_report.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/attempt.h"
 #include "rollwave/run/simulation.h"
@@ -16,6 +15,7 @@
 #include "rollwave/study/study_table.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
+#include "rollwave/verify/verification_report.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -12,9 +12,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::vector<std::string> modules = {"base",       "scene",       "exact", "mesh", "solver",
-                                          "contact",    "error_bound", "adapt", "run",  "verify",
-                                          "parameters", "output",      "study"};
+const std::vector<std::string> modules = {"base",       "scene",       "exact",  "mesh", "solver",
+                                          "contact",    "error_bound", "adapt",  "run",  "verify",
+                                          "parameters", "plot",        "output", "study"};
 
 /// The number of a module, from the lowest; files in no module are above all modules.
 std::size_t height(const std::string& module) {

@@ -2,9 +2,9 @@
 
 #include "program.h"
 
-#include "rollwave/output/gnuplot.h"
+#include "rollwave/plot/gnuplot.h"
+#include "rollwave/plot/plots.h"
 #include "rollwave/run/quantities.h"
-#include "rollwave/study/study_plot.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,7 +57,7 @@ double variable(const std::string& script, const std::string& name) {
 }
 
 void expect_same_point(const std::vector<double>& point, double x, double y) {
-  ASSERT_EQ(point.size(), 2u);
+  ASSERT_GE(point.size(), 2u);
   EXPECT_NEAR(point[0], x, 1e-8 * std::abs(x));
   EXPECT_NEAR(point[1], y, 1e-8 * std::abs(y));
 }
@@ -120,30 +120,20 @@ TEST_F(Pictures, BandsAreTheGuaranteedIntervalsOfTheVerticalLoad) {
   std::sort(rows.begin(), rows.end(), [](const CsvRow& left, const CsvRow& right) {
     return number(left, "scene.deflection") < number(right, "scene.deflection");
   });
+  const std::string script = read("study-curves.gp");
   unsigned int n_bands = 0;
-  for (const auto& [name, points] : blocks_of(read("study-curves.gp")))
-    if (name.rfind("$band_", 0) == 0) {
+  for (const auto& [name, points] : blocks_of(script))
+    if (points.front().size() > 2) {
       ++n_bands;
+      EXPECT_NE(script.find(name + " using 1:3:4 with filledcurves"), std::string::npos);
       ASSERT_EQ(points.size(), 3u);
       for (unsigned int i = 0; i < 3; ++i) {
-        ASSERT_EQ(points[i].size(), 3u);
-        const char* const columns[] = {"scene.deflection", "contact.vertical_load_lower_bound",
-                                       "contact.vertical_load_upper_bound"};
-        for (unsigned int k = 0; k < 3; ++k)
-          EXPECT_NEAR(points[i][k], number(rows[i], columns[k]), 1e-8);
+        EXPECT_NEAR(points[i][0], number(rows[i], "scene.deflection"), 1e-8);
+        EXPECT_NEAR(points[i][2], number(rows[i], "contact.vertical_load_lower_bound"), 1e-8);
+        EXPECT_NEAR(points[i][3], number(rows[i], "contact.vertical_load_upper_bound"), 1e-8);
       }
     }
   EXPECT_EQ(n_bands, 1u);
-}
-
-TEST_F(Pictures, BandsThinnerThanALineAreLeftOut) {
-  for (const double width : {1e-4, 0.1}) {
-    rollwave::Curve curve{"", {{1, 2}, {2, 3}}};
-    curve.band = {{1, 2 - width, 2 + width}, {2, 3 - width, 3 + width}};
-    const rollwave::Picture picture = rollwave::plot_panels("band", "", {{"x", "y", {curve}}});
-    EXPECT_EQ(blocks_of(picture.script).count("$band_1_1"), width > 0.01 ? 1u : 0u);
-    drawn(picture);
-  }
 }
 
 TEST_F(Pictures, ErrorsLieOverTheDiametersOfCells) {

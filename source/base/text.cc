@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace rollwave {
 
@@ -45,6 +46,21 @@ std::vector<std::string> split(const std::string& text, char separator) {
   for (std::string& part : parts)
     part = trimmed(part);
   return parts;
+}
+
+unsigned int edit_distance(const std::string& from, const std::string& to) {
+  std::vector<unsigned int> row(to.size() + 1);
+  for (unsigned int j = 0; j < row.size(); ++j)
+    row[j] = j;
+  for (const unsigned char letter : from) {
+    unsigned int diagonal = row[0]++;
+    for (unsigned int j = 1; j < row.size(); ++j) {
+      const bool is_equal = std::tolower(letter) == std::tolower(to[j - 1]);
+      const unsigned int edited = is_equal ? diagonal : 1 + std::min(row[j], row[j - 1]);
+      diagonal = std::exchange(row[j], edited);
+    }
+  }
+  return row.back();
 }
 
 double to_number(const std::string& text) {

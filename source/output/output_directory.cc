@@ -5,8 +5,6 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/version.h"
 
-#include <boost/algorithm/string/join.hpp>
-
 #include <algorithm>
 #include <cerrno>
 #include <sstream>
@@ -29,24 +27,6 @@ bool is_input(const Parameters& parameters, const fs::path& path) {
 }
 
 } // namespace
-
-void WrittenFiles::write(const fs::path& path, const std::string& content) {
-  n_bytes += write_file(path, content);
-  files.push_back(path);
-}
-
-void WrittenFiles::note_older_files(const std::vector<fs::path>& older) {
-  std::vector<std::string> names;
-  for (const fs::path& file : older)
-    if (std::find(files.begin(), files.end(), file) == files.end())
-      names.push_back(file.filename().string());
-  constexpr std::size_t most = 20;
-  const std::size_t n_names = names.size();
-  names.resize(std::min(most, n_names));
-  if (n_names > 0)
-    remarks.push_back("older files in this directory: " + boost::algorithm::join(names, ", ") +
-                      (n_names > most ? " and " + std::to_string(n_names - most) + " more" : ""));
-}
 
 void write_parameters(const fs::path& directory, const Parameters& parameters,
                       WrittenFiles& written) {

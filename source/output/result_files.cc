@@ -3,11 +3,11 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/memory.h"
 #include "rollwave/base/mpi_processes.h"
-#include "rollwave/output/gnuplot.h"
 #include "rollwave/output/scene_plot.h"
 #include "rollwave/output/summary_json.h"
 #include "rollwave/output/surface_vtu.h"
 #include "rollwave/output/vtu.h"
+#include "rollwave/plot/gnuplot.h"
 #include "rollwave/scene/units.h"
 
 #include <exception>

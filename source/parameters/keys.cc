@@ -14,22 +14,6 @@ namespace rollwave {
 
 namespace {
 
-/// The number of letters to insert or delete between two texts, regardless of case.
-unsigned int edit_distance(const std::string& from, const std::string& to) {
-  std::vector<unsigned int> row(to.size() + 1);
-  for (unsigned int j = 0; j < row.size(); ++j)
-    row[j] = j;
-  for (const unsigned char letter : from) {
-    unsigned int diagonal = row[0]++;
-    for (unsigned int j = 1; j < row.size(); ++j) {
-      const bool is_equal = std::tolower(letter) == std::tolower(to[j - 1]);
-      const unsigned int edited = is_equal ? diagonal : 1 + std::min(row[j], row[j - 1]);
-      diagonal = std::exchange(row[j], edited);
-    }
-  }
-  return row.back();
-}
-
 /// The keys, or without a name the sections, that are spelt most like these: up to three.
 std::string nearest(const std::string& section, const std::string& name) {
   std::set<std::pair<unsigned int, std::string>> known;

@@ -1,13 +1,12 @@
 #include "rollwave/study/study_csv.h"
 
+#include "rollwave/base/csv.h"
 #include "rollwave/base/text.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
 #include <boost/algorithm/string/join.hpp>
-#include <boost/algorithm/string/replace.hpp>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -18,32 +17,6 @@
 namespace rollwave {
 
 namespace {
-
-std::string csv_field(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  if (text.find_first_of(",\"") == std::string::npos)
-    return text;
-  return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
-}
-
-/// The fields of a line; none if a quotation mark is missing.
-std::vector<std::string> csv_fields(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool is_quoted = false;
-  char before = ',';
-  for (const char c : line) {
-    if (c == '"') {
-      is_quoted = !is_quoted;
-      if (is_quoted && before == '"') // a doubled one
-        fields.back() += c;
-    } else if (c == ',' && !is_quoted)
-      fields.emplace_back();
-    else
-      fields.back() += c;
-    before = c;
-  }
-  return is_quoted ? std::vector<std::string>() : fields;
-}
 
 /// The fields by which runs differ, at the beginning of a line.
 std::string key_fields(const RunPlan& plan) {

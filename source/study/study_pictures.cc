@@ -2,11 +2,11 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
+#include "rollwave/plot/plots.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
-#include "rollwave/study/study_plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,28 +72,27 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
 std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
-  const bool has_marks = !marks.empty() && study.has(marks);
   const bool has_bounds = quantity == "contact.vertical_load";
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
+    const auto number = [&](const std::string& name) {
+      return study.value(run, name).value_or(missing_point);
+    };
     const RunPlan& plan = study.plans[run];
     const auto fastest = plan.varied.begin() + study.first_key_of_part.back();
     const std::string title = label(plan, {plan.varied.begin(), fastest});
     // The runs of one curve follow each other, so that a new title begins a new curve.
     if (curves.empty() || curves.back().title != title)
-      curves.push_back({title, {}, {}});
-    if (std::isnan(x[run]))
-      continue;
-    curves.back().points.emplace_back(x[run], study.value(run, quantity).value_or(missing_point));
-    if (has_marks)
-      curves.back().marks.emplace_back(x[run], study.value(run, marks).value_or(missing_point));
-    if (has_bounds) // gaps where they are not known
-      curves.back().band.push_back(
-          {x[run], study.value(run, quantity + "_lower_bound").value_or(missing_point),
-           study.value(run, quantity + "_upper_bound").value_or(missing_point)});
+      curves.push_back({title, {}});
+    CurvePoint point = {x[run], number(quantity)};
+    if (has_bounds) {
+      point.lower = number(quantity + "_lower_bound");
+      point.upper = number(quantity + "_upper_bound");
+    }
+    if (!marks.empty())
+      point.mark = number(marks);
+    if (!std::isnan(point.x))
+      curves.back().points.push_back(point);
   }
-  for (Curve& curve : curves)
-    std::stable_sort(curve.points.begin(), curve.points.end(),
-                     [](const auto& left, const auto& right) { return left.first < right.first; });
   return curves;
 }
 
@@ -148,8 +147,8 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
 /// True if no run has a value: gnuplot refuses such a panel.
 bool is_empty(const Panel& panel) {
   for (const Curve& curve : panel.curves)
-    for (const auto& [x, y] : curve.points)
-      if (!std::isnan(y))
+    for (const CurvePoint& point : curve.points)
+      if (!std::isnan(point.y))
         return false;
   return true;
 }
@@ -169,11 +168,10 @@ Panel errors_of_families(const Study& study, const std::string& x, const std::st
     Curve curve{family.name, {}};
     for (const unsigned int run : family.runs) {
       if (study.value(run, x) && study.value(run, error.name))
-        curve.points.emplace_back(*study.value(run, x), *study.value(run, error.name));
+        curve.points.push_back({*study.value(run, x), *study.value(run, error.name)});
       if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
         orders.insert(*order);
     }
-    std::sort(curve.points.begin(), curve.points.end());
     if (!curve.points.empty())
       panel.curves.push_back(std::move(curve));
   }
@@ -195,7 +193,7 @@ Panel profile_panel(const Study& study) {
       const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
                          parameters.road.curvature}; // in the user's units
       for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.emplace_back(road.arc_length(from_lowest_point(z)), pressure);
+        panel.curves.back().points.push_back({road.arc_length(from_lowest_point(z)), pressure});
     }
   return panel;
 }

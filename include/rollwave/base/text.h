@@ -25,6 +25,9 @@ std::string trimmed(const std::string& text);
 /// The parts of @p text between the separators, trimmed; none for an empty text.
 std::vector<std::string> split(const std::string& text, char separator);
 
+/// The number of letters to insert or delete between two texts, regardless of case.
+unsigned int edit_distance(const std::string& from, const std::string& to);
+
 /// @p text as a finite number, in the C locale; subnormal numbers are refused as well.
 /// @throws std::invalid_argument for other texts
 double to_number(const std::string& text);

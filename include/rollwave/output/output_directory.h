@@ -1,28 +1,15 @@
 #pragma once
 
+#include "rollwave/base/written_files.h"
 #include "rollwave/parameters/parameters.h"
 
 #include <mpi.h>
 
 #include <filesystem>
 #include <set>
-#include <string>
 #include <vector>
 
 namespace rollwave {
-
-/// The files of a run, and remarks on those that could not be written.
-struct WrittenFiles {
-  std::vector<std::filesystem::path> files;
-  std::vector<std::string> remarks;
-  unsigned long n_bytes = 0;
-
-  /// Writes a file. @throws NotWritten.
-  void write(const std::filesystem::path& path, const std::string& content);
-
-  /// Adds a remark that names those of the files @p older that were not written.
-  void note_older_files(const std::vector<std::filesystem::path>& older);
-};
 
 /// Writes parameters.prm, the complete parameter file of a run with the version of the program in
 /// its first line. If parameters.prm is the file that was read, even through a link, it is left as

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollwave/output/gnuplot.h"
+#include "rollwave/plot/gnuplot.h"
 #include "rollwave/run/result.h"
 #include "rollwave/scene/scene.h"
 

@@ -1,4 +1,4 @@
-#include "rollwave/study/study_plot.h"
+#include "rollwave/plot/plots.h"
 
 #include "rollwave/base/text.h"
 
@@ -32,24 +32,27 @@ std::string title_in_room(const std::string& title, unsigned int width) {
          std::to_string(size_of_letters(title.size(), width, 12)) + '\'';
 }
 
-/// The name of a block of data of curve @p i in panel @p k.
-std::string block(const std::string& kind, unsigned int k, unsigned int i) {
-  return '$' + kind + '_' + std::to_string(k + 1) + '_' + std::to_string(i + 1);
+/// The name of the data of curve @p i in panel @p k.
+std::string block(unsigned int k, unsigned int i) {
+  return "$curve_" + std::to_string(k + 1) + '_' + std::to_string(i + 1);
 }
 
-void write_points(std::ostream& script, const std::string& name, const Points& points) {
-  script << name << " << EOD\n";
-  for (const auto& [x, y] : points)
-    script << plotted(x) << ' ' << plotted(y) << '\n';
-  script << "EOD\n";
+/// True if any point of the curve has the number.
+bool has(const Curve& curve, double CurvePoint::*number) {
+  return std::any_of(curve.points.begin(), curve.points.end(),
+                     [number](const CurvePoint& point) { return !std::isnan(point.*number); });
 }
 
-void write_band(std::ostream& script, const std::string& name, std::vector<BandPoint> band) {
-  std::stable_sort(band.begin(), band.end(),
-                   [](const BandPoint& left, const BandPoint& right) { return left.x < right.x; });
+/// The data of a curve: x and y; then, if any point has them, interval and mark.
+void write_points(std::ostream& script, const std::string& name, const Curve& curve) {
+  const bool has_more = has(curve, &CurvePoint::upper) || has(curve, &CurvePoint::mark);
   script << name << " << EOD\n";
-  for (const auto& [x, lower, upper] : band)
-    script << plotted(x) << ' ' << plotted(lower) << ' ' << plotted(upper) << '\n';
+  for (const auto& [x, y, lower, upper, mark] : curve.points) {
+    script << plotted(x) << ' ' << plotted(y);
+    if (has_more)
+      script << ' ' << plotted(lower) << ' ' << plotted(upper) << ' ' << plotted(mark);
+    script << '\n';
+  }
   script << "EOD\n";
 }
 
@@ -57,9 +60,9 @@ void write_band(std::ostream& script, const std::string& name, std::vector<BandP
 double below(const std::vector<Curve>& curves, double slope) {
   double least = std::numeric_limits<double>::max();
   for (const Curve& curve : curves)
-    for (const auto& [x, y] : curve.points)
-      if (!std::isnan(y) && x > 0 && y > 0)
-        least = std::min(least, y / std::pow(x, slope));
+    for (const CurvePoint& point : curve.points)
+      if (point.x > 0 && point.y > 0)
+        least = std::min(least, point.y / std::pow(point.x, slope));
   return least / 2;
 }
 
@@ -70,41 +73,16 @@ std::string style(unsigned int curve, std::size_t n_points) {
          std::to_string(7 - 2 * (curve / 4 % 3));
 }
 
-/// The least and the largest y of all curves.
-std::pair<double, double> extent(const Panel& panel) {
-  double least = std::numeric_limits<double>::max(), largest = -least;
-  const auto extend = [&](double y) {
-    if (!std::isnan(y)) {
-      least = std::min(least, y);
-      largest = std::max(largest, y);
-    }
-  };
-  for (const Curve& curve : panel.curves) {
-    for (const Points* const points : {&curve.points, &curve.marks})
-      for (const auto& [x, y] : *points)
-        extend(y);
-    for (const BandPoint& point : curve.band) {
-      extend(point.lower);
-      extend(point.upper);
-    }
-  }
-  return {least, largest};
-}
-
-/// Takes the bands away that are nowhere wider than a line.
-void drop_thin_bands(Panel& panel) {
-  constexpr double line_over_height = 1. / 150; // of a panel
-  const auto [least, largest] = extent(panel);
-  const double line = line_over_height * (largest - least);
-  for (Curve& curve : panel.curves)
-    if (std::none_of(curve.band.begin(), curve.band.end(),
-                     [line](const BandPoint& point) { return point.upper - point.lower > line; }))
-      curve.band.clear();
-}
-
 /// The range of y: at least a per cent of its values, so that noise does not fill the panel.
 std::string y_range(const Panel& panel) {
-  const auto [least, largest] = extent(panel);
+  double least = std::numeric_limits<double>::max(), largest = -least;
+  for (const Curve& curve : panel.curves)
+    for (const CurvePoint& point : curve.points)
+      for (const double y : {point.y, point.lower, point.upper, point.mark})
+        if (!std::isnan(y)) {
+          least = std::min(least, y);
+          largest = std::max(largest, y);
+        }
   const double span = 0.01 * std::max(std::abs(least), std::abs(largest)),
                middle = least + (largest - least) / 2;
   return largest - least < span
@@ -128,20 +106,19 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
   if (panel.has_log_y && !panel.has_log_x) // numbers of steps, which seldom span decades
     script << "set ytics (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e5, 1e6)\n";
   std::string separator = "plot ";
-  const auto add = [&](const std::string& name, unsigned int curve, const std::string& style,
-                       const std::string& title) {
-    script << separator << name << " with " << style << " linewidth 2 linecolor rgb '"
+  const auto add = [&](unsigned int curve, const std::string& style, const std::string& title) {
+    script << separator << block(k, curve) << " using " << style << " linewidth 2 linecolor rgb '"
            << colours[curve] << "' title " << in_single_quotes(title);
     separator = ", ";
   };
-  for (unsigned int i = 0; i < panel.curves.size(); ++i) // the lines lie on them
-    if (!panel.curves[i].band.empty())
-      add(block("band", k, i), i, "filledcurves fillstyle transparent solid 0.25 noborder", "");
+  for (unsigned int i = 0; i < panel.curves.size(); ++i) // the lines lie on the bands
+    if (has(panel.curves[i], &CurvePoint::upper))
+      add(i, "1:3:4 with filledcurves fillstyle transparent solid 0.25 noborder", "");
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    add(block("curve", k, i), i, style(i, curve.points.size()), curve.title);
-    if (!curve.marks.empty())
-      add(block("marks", k, i), i, "points pointtype 6 pointsize 1.4", curve.title + " published");
+    add(i, "1:2 with " + style(i, curve.points.size()), curve.title);
+    if (has(curve, &CurvePoint::mark))
+      add(i, "1:5 with points pointtype 6 pointsize 1.4", curve.title + " published");
   }
   for (unsigned int i = 0; i < panel.slopes.size(); ++i)
     script << ", " << below(panel.curves, panel.slopes[i]) << " * x**(" << panel.slopes[i]
@@ -164,24 +141,23 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
     }
   }
   for (Panel& panel : panels)
-    drop_thin_bands(panel);
+    for (Curve& curve : panel.curves)
+      std::stable_sort(
+          curve.points.begin(), curve.points.end(),
+          [](const CurvePoint& left, const CurvePoint& right) { return left.x < right.x; });
   std::ostringstream script;
   script.precision(9);
   script << "set grid\nset datafile missing 'NaN'\n";
   for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
-    for (unsigned int i = 0; i < panels[k].curves.size(); ++i) {
-      write_points(script, block("curve", k, i), panels[k].curves[i].points);
-      if (!panels[k].curves[i].band.empty())
-        write_band(script, block("band", k, i), panels[k].curves[i].band);
-      if (!panels[k].curves[i].marks.empty())
-        write_points(script, block("marks", k, i), panels[k].curves[i].marks);
-    }
+    for (unsigned int i = 0; i < panels[k].curves.size(); ++i)
+      write_points(script, block(k, i), panels[k].curves[i]);
   const bool is_single = panels.size() == 1;
   unsigned int n_titles = panels[0].slopes.size(),
                longest = n_titles > 0 ? std::string("expected slope -0.75").size() : 0;
   for (const Curve& curve : panels[0].curves) {
-    n_titles += curve.marks.empty() ? 1 : 2;
-    longest = std::max<unsigned int>(longest, curve.title.size() + (curve.marks.empty() ? 0 : 10));
+    const bool has_marks = has(curve, &CurvePoint::mark);
+    n_titles += has_marks ? 2 : 1;
+    longest = std::max<unsigned int>(longest, curve.title.size() + (has_marks ? 10 : 0));
   }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
   const unsigned int width = is_single ? 760 : 1000;

@@ -1,4 +1,4 @@
-#include "rollwave/output/verification_report.h"
+#include "rollwave/verify/verification_report.h"
 
 #include "rollwave/base/text.h"
 #include "rollwave/run/quantities.h"

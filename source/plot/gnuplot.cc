@@ -1,4 +1,4 @@
-#include "rollwave/output/gnuplot.h"
+#include "rollwave/plot/gnuplot.h"
 
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/text.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollwave/output/output_directory.h"
+#include "rollwave/base/written_files.h"
 
 #include <filesystem>
 #include <string>

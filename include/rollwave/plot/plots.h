@@ -1,28 +1,25 @@
 #pragma once
 
-#include "rollwave/output/gnuplot.h"
+#include "rollwave/plot/gnuplot.h"
 
 #include <array>
+#include <cmath>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// Points in x and y, the latter not a number where there is a gap.
-using Points = std::vector<std::pair<double, double>>;
-
-/// An interval of y; its ends are not a number where there is a gap.
-struct BandPoint {
-  double x, lower, upper;
+/// A point of a curve. A number that is not known is NaN, and leaves a gap.
+struct CurvePoint {
+  double x, y;
+  double lower = NAN, upper = NAN; ///< an interval that is drawn as part of a band
+  double mark = NAN;               ///< a further y, shown as an open circle
 };
 
-/// One curve of a panel: its points joined by lines.
+/// One curve of a panel: its points joined by lines, in the order of x.
 struct Curve {
   std::string title;
-  Points points;
-  Points marks = {};                ///< further points, shown as open circles
-  std::vector<BandPoint> band = {}; ///< drawn behind the curves, if it is wider than a line
+  std::vector<CurvePoint> points;
 };
 
 /// A pair of axes with curves.

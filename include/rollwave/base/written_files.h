@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rollwave {
+
+/// The files of a run, and remarks on those that could not be written.
+struct WrittenFiles {
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> remarks;
+  unsigned long n_bytes = 0;
+
+  /// Writes a file. @throws NotWritten.
+  void write(const std::filesystem::path& path, const std::string& content);
+
+  /// Adds a remark that names those of the files @p older that were not written.
+  void note_older_files(const std::vector<std::filesystem::path>& older);
+};
+
+} // namespace rollwave
