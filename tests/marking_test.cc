@@ -24,12 +24,12 @@ struct Ring {
         mesh(make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF)) {}
 
   /// How many cells are cut in a refinement by bulk marking.
-  unsigned int cut(const std::vector<double>& indicators, double fraction,
-                   double most_cells = 1e6) {
+  unsigned int cut(const std::vector<double>& indicators, double fraction, double most_cells = 1e6,
+                   double goal = 0) {
     const unsigned int before = mesh->n_active_cells();
     RefinementOptions options;
     options.marked_fraction = fraction;
-    refine_mesh(*mesh, scene, indicators, options, most_cells);
+    refine_mesh(*mesh, scene, indicators, goal, options, most_cells);
     return (mesh->n_active_cells() - before) / 3;
   }
 
@@ -66,6 +66,22 @@ TEST(Marking, DoesNotDependOnTheUnitOfTheIndicators) {
   }
 }
 
+TEST(Marking, TakesNoMoreThanHasToGo) {
+  for (const double goal : {0.6, 0.7, 0.8, 0.9, 0.97}) {
+    const unsigned int n_cut = Ring(row_of_eight).cut(falling, 1, 1e6, goal);
+    const auto left_by = [](unsigned int n) { // when a cut leaves a quarter of a squared error
+      double squared = 0;
+      for (unsigned int cell = 0; cell < falling.size(); ++cell)
+        squared += falling[cell] * falling[cell] * (cell < n ? 0.25 : 1);
+      return std::sqrt(squared / 204);
+    };
+    ASSERT_GT(n_cut, 0u);
+    EXPECT_LE(left_by(n_cut), goal);
+    EXPECT_GT(left_by(n_cut - 1), 0.9 * goal);
+    EXPECT_LE(Ring(row_of_eight).cut(falling, 0.3, 1e6, goal), 1u);
+  }
+}
+
 TEST(Marking, TakesMirrorImagesTogether) {
   EXPECT_EQ(Ring(row_of_eight).cut({3, 2, 1, 1, 1, 1, 2 + 1e-12, 3 - 1e-12}, 0.1), 2u);
   EXPECT_EQ(Ring(row_of_eight).cut(std::vector<double>(8, 0.1), 0.01), 8u);
@@ -78,8 +94,8 @@ TEST(Marking, TakesNoMoreCellsThanFit) {
   Ring ring(row_of_eight);
   RefinementOptions options;
   options.marking = Marking::all;
-  EXPECT_FALSE(refine_mesh(*ring.mesh, ring.scene, falling, options, 31));
-  EXPECT_TRUE(refine_mesh(*ring.mesh, ring.scene, falling, options, 32));
+  EXPECT_FALSE(refine_mesh(*ring.mesh, ring.scene, falling, 0, options, 31));
+  EXPECT_TRUE(refine_mesh(*ring.mesh, ring.scene, falling, 0, options, 32));
 }
 
 // The ring of the radii 0.999 and 1 is 3e-5 deep at the critical speed, and 0.45 with 0.5 and 1.
@@ -95,21 +111,30 @@ TEST(Marking, TakesWholeColumnsOfRingsThinnerThanACellIsLong) {
   EXPECT_EQ(Ring(thick).cut(indicators, 0.6), 1u);
 }
 
-// CellId and p4est have no room for more; the cells around are cut no further either.
+// CellId and p4est have no room for more.
 TEST(Marking, EndsAtTheFinestLevel) {
   const Parameters parameters = parameters_of({"Mesh/Radial cells=1", "Mesh/Angular cells=4"});
   const Scene scene = make_scene(parameters);
   const auto mesh = make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF);
-  bool is_cut = true;
-  for (int cycle = 0; cycle < 40 && is_cut; ++cycle) {
+  const auto indicators = [&](double of_others) {
     std::vector<double> indicators;
     for (const auto& cell : mesh->active_cell_iterators())
-      indicators.push_back(cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2));
-    is_cut = refine_mesh(*mesh, scene, indicators, {}, 1e6);
-  }
+      indicators.push_back(
+          cell->vertex(3) == dealii::Point<2>(1, 3 * dealii::numbers::PI / 2) ? 1 : of_others);
+    return indicators;
+  };
+  bool is_cut = true;
+  for (int cycle = 0; cycle < 40 && is_cut; ++cycle)
+    is_cut = refine_mesh(*mesh, scene, indicators(0), 0, {}, 1e6);
   EXPECT_FALSE(is_cut);
   EXPECT_EQ(mesh->n_levels(), 30);
   EXPECT_TRUE(is_at_finest_level(*mesh));
+  // The other cells are worth a cut only for a goal that the finest ones allow.
+  const double n_others = mesh->n_active_cells() - 1., of_others = 0.1,
+               least_goal = 1 / std::sqrt(1 + of_others * of_others * n_others);
+  EXPECT_FALSE(refine_mesh(*mesh, scene, indicators(of_others), 0.9 * least_goal, {}, 1e6));
+  EXPECT_TRUE(refine_mesh(*mesh, scene, indicators(of_others), 1.1 * least_goal, {}, 1e6));
+  EXPECT_EQ(mesh->n_levels(), 30);
 }
 
 // The unit of length of a scene is a power of two, so that a factor of 1.5 is none.

@@ -79,9 +79,24 @@ Vector<double> scaled_indicators(const Triangulation<2>& triangulation,
   return scaled;
 }
 
+/// The sum of all squares.
+double squared_norm(const Vector<double>& indicators, MPI_Comm communicator) {
+  return Utilities::MPI::sum(indicators.norm_sqr(), communicator);
+}
+
+/// The share of the squared error @p reducible to mark, so that all of it falls to the part
+/// goal^2 when @p fixed stays. The cells with the largest errors lie where the solution is least
+/// smooth; cutting them leaves a quarter of their squared errors, more or less.
+double share_to_mark(double fixed, double reducible, double goal) {
+  constexpr double left = 0.25, margin = 0.95;
+  const double all = fixed + reducible;
+  return (1 - std::pow(margin * goal, 2)) * all / ((1 - left) * reducible);
+}
+
 /// The indicator from which on cells are marked: the largest t for which the indicators from t on
-/// hold @p fraction of the sum of all squares, but not less than least_indicator.
+/// hold @p fraction of the sum of all squares, but not less than least_indicator of the largest.
 double marking_threshold(const Vector<double>& indicators, double fraction, MPI_Comm communicator) {
+  const double largest = Utilities::MPI::max(indicators.linfty_norm(), communicator);
   const auto sum_from = [&](double t) {
     double sum = 0;
     for (const double indicator : indicators)
@@ -90,13 +105,13 @@ double marking_threshold(const Vector<double>& indicators, double fraction, MPI_
     return Utilities::MPI::sum(sum, communicator);
   };
   const double wanted = fraction * sum_from(0);
-  double low = 0, high = 1;
+  double low = 0, high = largest;
   for (int halving = 0; halving < 40; ++halving) {
     const double middle = (low + high) / 2;
     (sum_from(middle) >= wanted ? low : high) = middle;
   }
   // The indicators of mirror images differ by round-off, which must not choose between them.
-  return (1 - 1e-6) * std::max(low, least_indicator);
+  return (1 - 1e-6) * std::max(low, least_indicator * largest);
 }
 
 /// The thickness of the ring in the coordinate s = int alpha^(1/2) dr, in which sin(k z) decays
@@ -169,26 +184,34 @@ void clear_flags(Triangulation<2>& triangulation) {
 } // namespace
 
 bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
-                 const std::vector<double>& indicators, const RefinementOptions& options,
-                 double most_cells) {
-  const Vector<double> scaled = scaled_indicators(triangulation, indicators);
+                 const std::vector<double>& indicators, double goal,
+                 const RefinementOptions& options, double most_cells) {
+  const MPI_Comm communicator = triangulation.get_communicator();
+  Vector<double> scaled = scaled_indicators(triangulation, indicators), at_finest(scaled.size());
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->level() >= finest_level)
+      std::swap(at_finest[cell->active_cell_index()], scaled[cell->active_cell_index()]);
+  const double fixed = squared_norm(at_finest, communicator),
+               reducible = squared_norm(scaled, communicator);
+  if (goal > 0 && fixed > goal * goal * (fixed + reducible))
+    scaled += at_finest; // out of reach: refinement ends when the others have less than these
+  const double fraction = std::min(options.marked_fraction, share_to_mark(fixed, reducible, goal));
   const double depth = natural_depth(scene);
   const auto flag = [&](double share) {
     clear_flags(triangulation);
     if (options.marking == Marking::all)
       triangulation.set_all_refine_flags();
     else
-      GridRefinement::refine(triangulation, scaled,
-                             marking_threshold(scaled, share, triangulation.get_communicator()));
+      GridRefinement::refine(triangulation, scaled, marking_threshold(scaled, share, communicator));
     for (const auto& cell : triangulation.active_cell_iterators())
       if (cell->level() >= finest_level)
         cell->clear_refine_flag();
     return complete_flags(triangulation, depth);
   };
   const double most_flagged = (most_cells - triangulation.n_global_active_cells()) / 3;
-  double n_flagged = flag(options.marked_fraction);
+  double n_flagged = flag(fraction);
   if (options.marking == Marking::bulk && n_flagged > most_flagged) {
-    double fits = 0, is_too_large = options.marked_fraction;
+    double fits = 0, is_too_large = fraction;
     for (int halving = 0; halving < 10; ++halving) {
       const double middle = (fits + is_too_large) / 2;
       (flag(middle) <= most_flagged ? fits : is_too_large) = middle;

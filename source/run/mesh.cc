@@ -31,11 +31,12 @@ Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communica
   return mesh;
 }
 
-bool refine(Mesh& mesh, const std::vector<double>& indicators, const Scene& scene,
+bool refine(Mesh& mesh, const std::vector<double>& indicators, double goal, const Scene& scene,
             const RunOptions& options, RunStatistics& statistics) {
   {
     const RunStatistics::Phase phase(statistics, "mesh");
-    if (!refine_mesh(*mesh.triangulation, scene, indicators, options.mesh, most_cells(options)))
+    if (!refine_mesh(*mesh.triangulation, scene, indicators, goal, options.mesh,
+                     most_cells(options)))
       return false;
   }
   mesh.space.reset(); // frees its memory first

@@ -141,7 +141,8 @@ std::string shortfall_of_error(const RunOptions& options, const Mesh& mesh, cons
     return {};
   return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
          ", wanted " + rounded(wanted, 6) + "; " +
-         (is_at_finest_level(*mesh.triangulation)
+         (is_at_finest_level(*mesh.triangulation) &&
+                  has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options))
               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
                 "Mesh/Angular cells, or Mesh/Wanted relative error"
               : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error");

@@ -80,6 +80,13 @@ std::vector<double> cell_indicators(const RunOptions& options, const MeshSolutio
   return kelly_indicator(solution.boundary.space(), solution.displacement);
 }
 
+/// The part of the error that may stay, where its bound gives the indicators; 0 without a target.
+double goal_of(const RunOptions& options, const std::optional<Certificate>& certificate) {
+  return certificate && options.mesh.indicator == Indicator::certificate
+             ? options.mesh.wanted_relative_error / certificate->error.relative
+             : 0;
+}
+
 /// sqrt(sum eta_K^2) over the cells of all processes.
 double l2_norm(const std::vector<double>& indicators, MPI_Comm communicator) {
   const double squared =
@@ -176,7 +183,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
       pressure = pressure_profile(solution);
       const auto indicators = cell_indicators(options, solution, certificate, statistics);
       cycles.back().indicated = l2_norm(indicators, mesh.communicator());
-      goes_on = refine(mesh, indicators, scene, options, statistics);
+      goes_on = refine(mesh, indicators, goal_of(options, certificate), scene, options, statistics);
     }
     if (progress.mesh_solved && (goes_on || cycles.size() > 1))
       progress.mesh_solved(cycles.size(), cycles.back());

@@ -60,15 +60,18 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * indicator. Cells with the same indicator are marked together, so that symmetric scenes keep
  * symmetric meshes, and the mesh does not depend on the number of processes.
  *
- * If that gives more than @p most_cells active cells, the fraction is smaller. Neighbours differ by
- * one level at most, over the seam as well. Cells of level 29 are not cut, the limit of CellId and
- * p4est.
+ * The fraction is smaller if less of the error has to go, so that it falls to the part @p goal of
+ * what it is, or if there would be more than @p most_cells active cells. Neighbours differ by one
+ * level at most, over the seam as well. Cells of level 29, the limit of CellId and p4est, are not
+ * cut. They count as part of the whole, and for the largest indicator, only if they alone have more
+ * error than the goal.
  *
+ * @param goal 0 for an error that falls without end
  * @return false, with the mesh as it was, if no cell is marked or no marked cell fits
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
-                 const std::vector<double>& indicators, const RefinementOptions& options,
-                 double most_cells);
+                 const std::vector<double>& indicators, double goal,
+                 const RefinementOptions& options, double most_cells);
 
 /// True if there are cells that cannot be cut again.
 bool is_at_finest_level(const dealii::Triangulation<2>& triangulation);

@@ -25,10 +25,9 @@ struct Mesh {
 Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                RunStatistics& statistics);
 
-/// Refines a mesh where @p indicators of the cells are large, as refine_mesh(), and makes its space
-/// anew. Returns false, and changes nothing, where the mesh would get too large or no cell is
-/// marked. All processes must call it.
-bool refine(Mesh& mesh, const std::vector<double>& indicators, const Scene& scene,
+/// Refines a mesh by refine_mesh(), and makes its space anew. Returns false, and changes nothing,
+/// where refine_mesh() does. All processes must call it.
+bool refine(Mesh& mesh, const std::vector<double>& indicators, double goal, const Scene& scene,
             const RunOptions& options, RunStatistics& statistics);
 
 /// The most cells that MeshOptions::most_unknowns allows.
