@@ -1,5 +1,5 @@
 // Which cells are cut: the fewest with a share of the squared error, with mirror images and columns
-// of thin rings, and not more than fit.
+// of thin rings, and not more than fit, than the wanted error needs, or than can be cut.
 #include "rollwave/adapt/marking.h"
 
 #include "rollwave/mesh/ring_mesh.h"
@@ -130,11 +130,36 @@ TEST(Marking, EndsAtTheFinestLevel) {
   EXPECT_EQ(mesh->n_levels(), 30);
   EXPECT_TRUE(is_at_finest_level(*mesh));
   // The other cells are worth a cut only for a goal that the finest ones allow.
-  const double n_others = mesh->n_active_cells() - 1., of_others = 0.1,
+  const double n_others = mesh->n_active_cells() - 1., of_others = 0.05,
                least_goal = 1 / std::sqrt(1 + of_others * of_others * n_others);
   EXPECT_FALSE(refine_mesh(*mesh, scene, indicators(of_others), 0.9 * least_goal, {}, 1e6));
+  EXPECT_FALSE(refine_mesh(*mesh, scene, indicators(of_others), 0, {}, 1e6));
   EXPECT_TRUE(refine_mesh(*mesh, scene, indicators(of_others), 1.1 * least_goal, {}, 1e6));
   EXPECT_EQ(mesh->n_levels(), 30);
+}
+
+// A run that stops at a wanted error needs fewer cells for it than one that goes on.
+TEST(Marking, SparesCellsOnTheLastMesh) {
+  const auto run = [](const std::string& setting) {
+    const Parameters parameters =
+        parameters_of({"Mesh/Radial cells=2", "Mesh/Angular cells=24", setting});
+    return simulate(make_scene(parameters), parameters).result;
+  };
+  const Result far = run("Mesh/Adaptive cycles=6");
+  const double wanted = 0.95 * *far.cycles[5].certified;
+  ASSERT_LT(far.certified->relative, wanted);
+  const Result near = run(assignment("Mesh/Wanted relative error", wanted));
+  EXPECT_LE(near.certified->relative, wanted);
+  ASSERT_EQ(near.cycles.size(), 7u);
+  EXPECT_EQ(near.cycles[5].n_cells, far.cycles[5].n_cells);
+  EXPECT_LT(near.cycles[6].n_cells, far.cycles[6].n_cells);
+  // It is not kept from it by a limit that its last mesh meets, though a fifth more do not fit.
+  ASSERT_LT(near.mesh.n_cells, 1.2 * near.cycles[5].n_cells);
+  const unsigned int most = 4 * near.mesh.n_cells; // unknowns of degree 2
+  const Parameters limited = parameters_of({"Mesh/Radial cells=2", "Mesh/Angular cells=24",
+                                            assignment("Mesh/Wanted relative error", wanted),
+                                            "Mesh/Most unknowns=" + std::to_string(most)});
+  EXPECT_EQ(simulate(make_scene(limited), limited).result.mesh.n_unknowns, near.mesh.n_unknowns);
 }
 
 // The unit of length of a scene is a power of two, so that a factor of 1.5 is none.

@@ -136,6 +136,28 @@ TEST_F(Pictures, BandsAreTheGuaranteedIntervalsOfTheVerticalLoad) {
   EXPECT_EQ(n_bands, 1u);
 }
 
+TEST_F(Pictures, PublishedStepsAreMarks) {
+  run({"Contact/Method=uzawa", "Mesh/Degree=1", "Study/Vary=Contact/Rho = 1 | 2 | 1.5",
+       "Study/Published steps=7, 9, -"});
+  const std::string script = read("study.gp");
+  const Rows points = blocks_of(script)["$curve_1_1"];
+  ASSERT_EQ(points.size(), 3u);
+  ASSERT_EQ(points[0].size(), 5u);
+  EXPECT_EQ(points[0][4], 7);
+  EXPECT_TRUE(std::isnan(points[1][4]));
+  EXPECT_EQ(points[2][4], 9);
+  EXPECT_NE(script.find("$curve_1_1 using 1:5 with points"), std::string::npos);
+}
+
+TEST_F(Pictures, NumbersThatAreNotKnownLeaveGaps) {
+  const std::string picture = drawn(rollwave::plot_panels(
+      "gap", "", {{"x", "y", {{"", {{1, 1}, {2, 2}, {3, NAN}, {4, 1}, {5, 2}}}}}}));
+  const auto color = picture.find("stroke='rgb(  0, 114, 178)'");
+  ASSERT_NE(color, std::string::npos);
+  const std::string path = picture.substr(color, picture.find("/>", color) - color);
+  EXPECT_EQ(std::count(path.begin(), path.end(), 'M'), 2) << path;
+}
+
 TEST_F(Pictures, ErrorsLieOverTheDiametersOfCells) {
   run({"Mesh/Degree=1", "Study/Vary=Mesh/Global refinements = 0 | 2 | 1"});
   const auto rows = csv_rows(read("study.csv"));

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace rollwave {
 
@@ -84,13 +85,31 @@ double squared_norm(const Vector<double>& indicators, MPI_Comm communicator) {
   return Utilities::MPI::sum(indicators.norm_sqr(), communicator);
 }
 
-/// The share of the squared error @p reducible to mark, so that all of it falls to the part
-/// goal^2 when @p fixed stays. The cells with the largest errors lie where the solution is least
-/// smooth; cutting them leaves a quarter of their squared errors, more or less.
-double share_to_mark(double fixed, double reducible, double goal) {
+/// Indicators of cells, and the fraction of the sum of their squares to mark.
+struct Bulk {
+  Vector<double> indicators;
+  double fraction;
+};
+
+/// The indicators of the cells that count, 0 on others; and @p marked_fraction, or less if less
+/// lets the error fall to the part @p goal of what it is. The cells with the largest errors lie
+/// where the solution is least smooth: cutting them leaves about a quarter of their squared errors.
+Bulk choose_bulk(const Triangulation<2>& triangulation, const std::vector<double>& indicators,
+                 double goal, double marked_fraction) {
+  const MPI_Comm communicator = triangulation.get_communicator();
+  Vector<double> scaled = scaled_indicators(triangulation, indicators), at_finest(scaled.size());
+  for (const auto& cell : triangulation.active_cell_iterators())
+    if (cell->level() >= finest_level)
+      std::swap(at_finest[cell->active_cell_index()], scaled[cell->active_cell_index()]);
+  const double fixed = squared_norm(at_finest, communicator),
+               reducible = squared_norm(scaled, communicator), all = fixed + reducible;
+  // Where cuts of other cells cannot reach the goal, or gain little, these count as well, so that
+  // refinement ends when the others have far less than these.
+  if (fixed > (goal > 0 ? goal * goal * all : reducible))
+    scaled += at_finest;
   constexpr double left = 0.25, margin = 0.95;
-  const double all = fixed + reducible;
-  return (1 - std::pow(margin * goal, 2)) * all / ((1 - left) * reducible);
+  const double to_remove = (1 - std::pow(margin * goal, 2)) * all;
+  return {scaled, std::min(marked_fraction, to_remove / ((1 - left) * reducible))};
 }
 
 /// The indicator from which on cells are marked: the largest t for which the indicators from t on
@@ -187,31 +206,24 @@ bool refine_mesh(Triangulation<2>& triangulation, const Scene& scene,
                  const std::vector<double>& indicators, double goal,
                  const RefinementOptions& options, double most_cells) {
   const MPI_Comm communicator = triangulation.get_communicator();
-  Vector<double> scaled = scaled_indicators(triangulation, indicators), at_finest(scaled.size());
-  for (const auto& cell : triangulation.active_cell_iterators())
-    if (cell->level() >= finest_level)
-      std::swap(at_finest[cell->active_cell_index()], scaled[cell->active_cell_index()]);
-  const double fixed = squared_norm(at_finest, communicator),
-               reducible = squared_norm(scaled, communicator);
-  if (goal > 0 && fixed > goal * goal * (fixed + reducible))
-    scaled += at_finest; // out of reach: refinement ends when the others have less than these
-  const double fraction = std::min(options.marked_fraction, share_to_mark(fixed, reducible, goal));
+  const Bulk bulk = choose_bulk(triangulation, indicators, goal, options.marked_fraction);
   const double depth = natural_depth(scene);
   const auto flag = [&](double share) {
     clear_flags(triangulation);
     if (options.marking == Marking::all)
       triangulation.set_all_refine_flags();
     else
-      GridRefinement::refine(triangulation, scaled, marking_threshold(scaled, share, communicator));
+      GridRefinement::refine(triangulation, bulk.indicators,
+                             marking_threshold(bulk.indicators, share, communicator));
     for (const auto& cell : triangulation.active_cell_iterators())
       if (cell->level() >= finest_level)
         cell->clear_refine_flag();
     return complete_flags(triangulation, depth);
   };
   const double most_flagged = (most_cells - triangulation.n_global_active_cells()) / 3;
-  double n_flagged = flag(fraction);
-  if (options.marking == Marking::bulk && n_flagged > most_flagged) {
-    double fits = 0, is_too_large = fraction;
+  double n_flagged = flag(bulk.fraction);
+  if (n_flagged > most_flagged && has_room_to_refine(triangulation, options, most_cells)) {
+    double fits = 0, is_too_large = bulk.fraction;
     for (int halving = 0; halving < 10; ++halving) {
       const double middle = (fits + is_too_large) / 2;
       (flag(middle) <= most_flagged ? fits : is_too_large) = middle;

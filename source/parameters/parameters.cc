@@ -133,8 +133,8 @@ void declare_mesh(Section<RunOptions::Mesh> keys) {
       "Which cells to refine. \"bulk\": the fewest that hold the marked fraction of the squared "
       "error. \"all\": every cell.");
   keys.add("Marked fraction", &RefinementOptions::marked_fraction, {0.01, 1},
-           "Fraction used by Marking = bulk, from 0.01 to 1: less, if the wanted relative error "
-           "needs less.");
+           "Fraction used by Marking = bulk, from 0.01 to 1. Fewer cells are marked where the "
+           "certificate says that the wanted relative error needs fewer.");
   keys.add(
       "Most unknowns", &MeshOptions::most_unknowns, {1, most},
       "Largest number of unknowns, 1 to 2147483647: a larger mesh is refused; adaptive refinement "

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace rollwave {
 
@@ -147,7 +148,7 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
           [](const CurvePoint& left, const CurvePoint& right) { return left.x < right.x; });
   std::ostringstream script;
   script.precision(9);
-  script << "set grid\nset datafile missing 'NaN'\n";
+  script << "set grid\n";
   for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
     for (unsigned int i = 0; i < panels[k].curves.size(); ++i)
       write_points(script, block(k, i), panels[k].curves[i]);

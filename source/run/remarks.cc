@@ -142,6 +142,7 @@ std::string shortfall_of_error(const RunOptions& options, const Mesh& mesh, cons
   return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
          ", wanted " + rounded(wanted, 6) + "; " +
          (is_at_finest_level(*mesh.triangulation) &&
+                  result.cycles.size() <= most_cycles(options.mesh) &&
                   has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options))
               ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
                 "Mesh/Angular cells, or Mesh/Wanted relative error"

@@ -80,7 +80,8 @@ std::vector<double> cell_indicators(const RunOptions& options, const MeshSolutio
   return kelly_indicator(solution.boundary.space(), solution.displacement);
 }
 
-/// The part of the error that may stay, where its bound gives the indicators; 0 without a target.
+/// The part of the error that may stay, as its bound estimates it; 0 without a target, or where
+/// the bound does not give the indicators.
 double goal_of(const RunOptions& options, const std::optional<Certificate>& certificate) {
   return certificate && options.mesh.indicator == Indicator::certificate
              ? options.mesh.wanted_relative_error / certificate->error.relative
@@ -116,13 +117,12 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if no further mesh is needed or possible: the wanted error is reached, the cycles or the
-/// room are used up, or the certificate has failed.
-bool is_last(const RunOptions& options, const Mesh& mesh,
-             const std::optional<Certificate>& certificate, unsigned int n_meshes) {
+/// True if no further mesh is needed or allowed: the wanted error is reached, the cycles are used
+/// up, or the certificate has failed.
+bool is_last(const RunOptions& options, const std::optional<Certificate>& certificate,
+             unsigned int n_meshes) {
   const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate) ||
-         !has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options));
+  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate);
 }
 
 std::string interrupted_text(unsigned int n_meshes) {
@@ -173,7 +173,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     dual.reset();
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
-    const bool ends = is_last(options, mesh, certificate, cycles.size());
+    const bool ends = is_last(options, certificate, cycles.size());
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.notes.push_back({Note::Kind::shortfall, interrupted_text(cycles.size())});

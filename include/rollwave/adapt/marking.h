@@ -43,8 +43,8 @@ struct RefinementOptions {
 /// How often a run refines its mesh at most.
 unsigned int most_cycles(const RefinementOptions& options);
 
-/// True if a further mesh is worth its solution: a fifth more cells fit or, with Marking::all, four
-/// times as many.
+/// True if a further mesh is worth its solution although not all marked cells fit: a fifth more
+/// cells fit or, with Marking::all, four times as many.
 bool has_room_to_refine(const dealii::Triangulation<2>& triangulation,
                         const RefinementOptions& options, double most_cells);
 
@@ -63,10 +63,10 @@ std::vector<double> kelly_indicator(const RingSpace& space, const FieldVector& f
  * The fraction is smaller if less of the error has to go, so that it falls to the part @p goal of
  * what it is, or if there would be more than @p most_cells active cells. Neighbours differ by one
  * level at most, over the seam as well. Cells of level 29, the limit of CellId and p4est, are not
- * cut. They count as part of the whole, and for the largest indicator, only if they alone have more
- * error than the goal.
+ * cut. They count, as part of the whole and for the largest indicator, only if they alone have
+ * more error than the goal, or, without a goal, more than the others.
  *
- * @param goal 0 for an error that falls without end
+ * @param goal 0 for none
  * @return false, with the mesh as it was, if no cell is marked or no marked cell fits
  */
 bool refine_mesh(dealii::Triangulation<2>& triangulation, const Scene& scene,
