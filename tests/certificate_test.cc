@@ -83,7 +83,8 @@ TEST(Certificate, HoldsForRandomScenes) {
       const bool is_fine_adaptive =
           solution.result.cycles.size() > 1 && solution.result.mesh.n_unknowns > 1000;
       const double ratio = sharpness(certified, *exact);
-      EXPECT_LE(ratio, is_fine_adaptive ? 3 : 6) << solution.result.mesh.n_unknowns << " unknowns";
+      EXPECT_LE(ratio, is_fine_adaptive ? 2.5 : 6)
+          << solution.result.mesh.n_unknowns << " unknowns";
       worst = std::max(worst, ratio);
       if (is_fine_adaptive)
         worst_on_fine_adaptive = std::max(worst_on_fine_adaptive, ratio);
