@@ -22,7 +22,7 @@ TEXT
 
 # mold is the linker that Debian 13's deal.II asks for.
 program_packages=(g++ cmake ninja-build mold libdeal.ii-dev libsuitesparse-dev
-  libopenblas0-pthread nlohmann-json3-dev gnuplot-nox openmpi-bin libmumps-dev libmuparser-dev)
+  libopenblas0-pthread nlohmann-json3-dev gnuplot-nox openmpi-bin libmuparser-dev)
 test_packages=(libgtest-dev python3-vtk9)
 
 install_missing() {

@@ -191,8 +191,8 @@ TEST_F(Processes, EndTogetherWhenOneIsKilled) {
 }
 
 #ifndef __SANITIZE_ADDRESS__ // which needs the whole address space
-// One process runs out of memory alone, or MUMPS does, which all processes know. With less address
-// space Open MPI or p4est may end the program before.
+// One process may run out of memory alone. With less address space Open MPI or p4est may end the
+// program before.
 TEST_F(Processes, EndTogetherWithoutMemory) {
   for (const auto& [radial_cells, angular_cells, kibibytes] :
        {std::tuple(150, 1800, 1200000), {200, 2400, 1700000}}) {

@@ -3,13 +3,13 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/run/solve_on_mesh.h"
 #include "rollwave/solver/assembly.h"
-#include "rollwave/solver/serial_factor.h"
 #include "test_scenes.h"
 
 #include <deal.II/lac/full_matrix.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -22,29 +22,32 @@ using dealii::Vector;
 
 namespace {
 
-/// Adds up y^T K x instead of K, with the fields that it is given.
-class FormOfCells : public SystemMatrix {
-public:
-  FormOfCells(const FieldVector& x, const FieldVector& y) : x(x), y(y) {}
-
-  void add(const std::vector<dealii::types::global_dof_index>& dofs,
-           const FullMatrix<double>& cell_matrix) override {
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      for (unsigned int j = 0; j < dofs.size(); ++j)
-        sum += y(dofs[i]) * cell_matrix(i, j) * x(dofs[j]);
-  }
-  std::unique_ptr<const SparseFactor> factorise(RunStatistics&) override { return nullptr; }
-
-  const FieldVector &x, &y;
-  double sum = 0;
-};
-
 double factor_entries_per_unknown(const RingSpace& space, const Scene& scene) {
-  SerialMatrix matrix(space, space.constraints(), {});
-  assemble_stiffness(space, scene, matrix);
-  CholmodFactor cholesky(space.n_unknowns());
-  cholesky.set_matrix(matrix.entries());
+  CholmodFactor cholesky(space.n_unknowns(), 0);
+  cholesky.set_matrix(stiffness_matrix(space, scene).entries());
   return cholesky.n_factor_entries() / space.n_unknowns();
+}
+
+// Nodes of coarse and fine cells on one edge may be at one place, or nearly.
+TEST(NestedDissection, HasEachDegreeOfFreedomOnce) {
+  for (int degree = 1; degree <= 8; ++degree) {
+    const Parameters parameters = parameters_of(
+        {"Mesh/Degree=" + std::to_string(degree), "Mesh/Radial cells=3", "Mesh/Angular cells=14"});
+    const Scene scene = make_scene(parameters);
+    MeshAndSpace ring(scene, parameters);
+    for (int level = 1; level <= 4; ++level) {
+      for (const auto& cell : ring.triangulation->active_cell_iterators())
+        if (std::cos(7 * cell->center()[1] + level * cell->center()[0]) > 0.7)
+          cell->set_refine_flag();
+      ring.triangulation->execute_coarsening_and_refinement();
+    }
+    const RingSpace space(*ring.triangulation, scene, degree);
+    std::vector<dealii::types::global_dof_index> order = space.elimination_order();
+    std::sort(order.begin(), order.end());
+    ASSERT_EQ(order.size(), space.dof_handler().n_dofs()) << degree;
+    for (unsigned int dof = 0; dof < order.size(); ++dof)
+      ASSERT_EQ(order[dof], dof) << degree;
+  }
 }
 
 // Between layers of n nodes a node has at most its own and those on both sides in the factor, 3 n;
@@ -79,20 +82,22 @@ TEST(CholmodFactor, DeepMeshHasTheFactorOfAShallowOne) {
   EXPECT_LE(entries.back(), 1.3 * entries.front());
 }
 
-TEST(CholmodFactor, TrailingFactorIsThatOfTheSchurComplement) {
+TEST(CholmodFactor, PartsTheLastUnknowns) {
   const int n = 60;
   const RandomMatrix matrix(n);
-  CholmodFactor cholesky(n);
-  cholesky.set_matrix(matrix.triplets);
-  cholesky.factorise();
   FullMatrix<double> inverse(n, n);
   inverse.invert(matrix.full);
+  std::vector<double> x(n);
+  for (int i = 0; i < n; ++i)
+    x[i] = std::sin(i);
   for (const int m : {0, 1, 13, n}) {
-    const FullMatrix<double> factor = cholesky.trailing_factor(m);
+    CholmodFactor cholesky(n, m);
+    cholesky.set_matrix(matrix.triplets);
+    cholesky.factorise();
+    const FullMatrix<double> factor = cholesky.schur_factor();
     FullMatrix<double> schur(m, m);
     if (m > 0)
       factor.mTmult(schur, factor);
-
     // The inverse of the Schur complement is the trailing block of the inverse.
     for (int i = 0; i < m; ++i)
       for (int j = 0; j < m; ++j) {
@@ -101,26 +106,29 @@ TEST(CholmodFactor, TrailingFactorIsThatOfTheSchurComplement) {
           product += schur(i, k) * inverse(n - m + k, n - m + j);
         EXPECT_NEAR(product, i == j, 1e-12);
       }
-  }
-}
 
-TEST(CholmodFactor, SolvesAndMultiplies) {
-  const int n = 60;
-  const RandomMatrix matrix(n);
-  CholmodFactor cholesky(n);
-  cholesky.set_matrix(matrix.triplets);
-  cholesky.factorise();
-  std::vector<double> x(n);
-  for (int i = 0; i < n; ++i)
-    x[i] = std::sin(i);
-  const std::vector<double> product = cholesky.multiply(x);
-  const std::vector<double> solved = cholesky.backward(cholesky.forward(product));
-  for (int i = 0; i < n; ++i) {
-    EXPECT_NEAR(solved[i], x[i], 1e-13);
-    double sum = 0;
-    for (int j = 0; j < n; ++j)
-      sum += matrix.full(i, j) * x[j];
-    EXPECT_NEAR(product[i], sum, 1e-12 * n);
+    const std::vector<double> b = cholesky.multiply(x);
+    for (int i = 0; i < n; ++i) {
+      double sum = 0;
+      for (int j = 0; j < n; ++j)
+        sum += matrix.full(i, j) * x[j];
+      EXPECT_NEAR(b[i], sum, 1e-12 * n);
+    }
+    const Vector<double> x_c(x.end() - m, x.end()), condensed = cholesky.condense(b);
+    const std::vector<double> solved = cholesky.solve(b, x_c);
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(solved[i], x[i], 1e-13);
+    Vector<double> schur_times_x(m);
+    if (m > 0)
+      schur.vmult(schur_times_x, x_c);
+    for (int i = 0; i < m; ++i)
+      EXPECT_NEAR(condensed(i), schur_times_x(i), 1e-12 * n);
+
+    // Without b: K_ii x_i = -K_ic x_c
+    const std::vector<double> followed = cholesky.solve({}, x_c),
+                              balance = cholesky.multiply(followed);
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(i < n - m ? balance[i] : followed[i], i < n - m ? 0 : x[i], 1e-12);
   }
 }
 
@@ -129,7 +137,7 @@ TEST(CholmodFactor, RefusesAnIndefiniteMatrix) {
   triplets.add(0, 0, 1);
   triplets.add(1, 0, 2);
   triplets.add(1, 1, 1);
-  CholmodFactor cholesky(2);
+  CholmodFactor cholesky(2, 0);
   cholesky.set_matrix(triplets);
   EXPECT_THROW(cholesky.factorise(), NotSolved);
 }
@@ -139,7 +147,7 @@ TEST(CholmodFactor, StartsNoThreads) {
     using Entries = std::filesystem::directory_iterator;
     return std::distance(Entries("/proc/self/task"), Entries());
   };
-  CholmodFactor cholesky(400);
+  CholmodFactor cholesky(400, 0);
   cholesky.set_matrix(RandomMatrix(400).triplets);
   const auto before = n_threads();
   cholesky.factorise();
@@ -197,10 +205,14 @@ TEST_P(Condensation, StiffnessIsSymmetricAndSumsUpTheCells) {
   }
   ring.space.constraints().distribute(x);
   ring.space.constraints().distribute(y);
-  FormOfCells form(x, y);
-  assemble_stiffness(ring.space, scene, form);
-  EXPECT_NEAR(y * system.factor->apply(x), form.sum, 1e-12 * std::abs(form.sum));
-  EXPECT_NEAR(x * system.factor->apply(y), form.sum, 1e-12 * std::abs(form.sum));
+  double form = 0; // y^T K x
+  assemble_stiffness(ring.space, scene, [&](const auto& dofs, const auto& cell_matrix) {
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      for (unsigned int j = 0; j < dofs.size(); ++j)
+        form += y(dofs[i]) * cell_matrix(i, j) * x(dofs[j]);
+  });
+  EXPECT_NEAR(y * system.factor->apply(x), form, 1e-12 * std::abs(form));
+  EXPECT_NEAR(x * system.factor->apply(y), form, 1e-12 * std::abs(form));
 }
 
 TEST_P(Condensation, PinnedProblemsAreInEquilibrium) {

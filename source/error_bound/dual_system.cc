@@ -170,13 +170,13 @@ DualSystem::DualSystem(const RingSpace& space, const Scene& scene, RunStatistics
     : space(space), radial(space, scene) {
   const std::vector<EdgePressure> no_pressures(space.surface_edges().size());
   const auto constraints = make_constraints(space, scene, no_pressures);
-  const auto matrix = make_system_matrix(space, constraints);
+  SystemMatrix matrix(space, constraints);
   DualCellMatrix cell_matrix(radial, space.dof_handler().get_fe().degree);
   LexicographicDofs dofs(space.dof_handler());
   for (const auto& cell : space.dof_handler().active_cell_iterators())
     if (cell->is_locally_owned())
-      matrix->add(dofs.of(cell), cell_matrix.on(cell));
-  factor = matrix->factorise(statistics);
+      matrix.add(dofs.of(cell), cell_matrix.on(cell));
+  factor = matrix.factorise(statistics);
 }
 
 FieldVector DualSystem::stress_function(const Scene& scene,

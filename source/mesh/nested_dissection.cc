@@ -2,6 +2,7 @@
 
 #include "rollwave/mesh/ring_space.h"
 
+#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/cell_id.h>
 #include <deal.II/grid/tria.h>
 
@@ -47,32 +48,56 @@ struct Box {
   }
 };
 
-/// The cost of a line: the squared number of nodes on it, which is the number of entries that it
-/// adds to the factor, divided by the number of pairs of nodes that it separates. If it separates
-/// none: 0 if all nodes lie on one side and not all at one place, otherwise infinity.
-double cost(const Box& box, unsigned int direction, const NodeRange& nodes) {
-  double below = 0, on = 0, lowest = nodes.first->place[direction], highest = lowest;
-  for (auto node = nodes.first; node != nodes.second; ++node) {
-    const double place = node->place[direction];
-    lowest = std::min(lowest, place);
-    highest = std::max(highest, place);
-    const bool is_on = box.holds_on_line(direction, *node);
-    on += is_on;
-    below += !is_on && place < box.middle(direction);
+/// The numbers of nodes on both sides of the line that halves a box, and on it.
+struct Split {
+  Split(const Box& box, unsigned int direction, const NodeRange& nodes) {
+    const double middle = box.middle(direction);
+    double lowest = nodes.first->place[direction], highest = lowest;
+    for (auto node = nodes.first; node != nodes.second; ++node) {
+      const double place = node->place[direction];
+      lowest = std::min(lowest, place);
+      highest = std::max(highest, place);
+      const bool is_on = box.holds_on_line(direction, *node);
+      on += is_on;
+      below += !is_on && place < middle;
+    }
+    above = nodes.second - nodes.first - below - on;
+    // Places on hanging edges may differ by round-off alone, which no smaller box tells apart.
+    is_possible = lowest < highest && box.low[direction] < middle && middle < box.high[direction];
+    leaves_one_half = is_possible && (below == 0) != (above == 0);
   }
-  const double above = nodes.second - nodes.first - below - on;
-  if (below > 0 && above > 0 && on > 0)
-    return on * on / (below * above);
-  const bool takes_nothing = on == 0 && (below == 0 || above == 0);
-  return takes_nothing && lowest < highest ? 0 : std::numeric_limits<double>::infinity();
-}
+
+  /// The squared number of nodes on the line, which is the number of entries that it adds to the
+  /// factor, divided by the number of pairs of nodes that it separates. If it separates none: 0 if
+  /// it only makes the box smaller, otherwise infinity.
+  double cost() const {
+    if (below > 0 && above > 0 && on > 0)
+      return on * on / (below * above);
+    return leaves_one_half ? 0 : std::numeric_limits<double>::infinity();
+  }
+
+  double below = 0, on = 0, above = 0;
+  bool is_possible;     ///< false if the nodes are all at one place
+  bool leaves_one_half; ///< true if it is possible and one half is empty
+};
 
 /// Puts nodes in the order of elimination.
 void dissect(NodeRange nodes, const Box& box) {
   if (nodes.second - nodes.first < 2)
     return;
-  const unsigned int direction = cost(box, 0, nodes) < cost(box, 1, nodes) ? 0 : 1;
+  const Split radial(box, 0, nodes), angular(box, 1, nodes);
+  if (!radial.is_possible && !angular.is_possible)
+    return;
+  const unsigned int direction = radial.cost() < angular.cost() || !angular.is_possible ? 0 : 1;
+  const Split& split = direction == 0 ? radial : angular;
   const double middle = box.middle(direction);
+  Box lower_half = box, upper_half = box;
+  lower_half.high[direction] = upper_half.low[direction] = middle;
+  lower_half.is_closed = upper_half.is_closed = box.is_closed && direction == 0;
+  if (split.leaves_one_half) {
+    dissect(nodes, split.below > 0 ? lower_half : upper_half);
+    return;
+  }
   const auto line = std::partition(nodes.first, nodes.second, [&](const Node& node) {
     return !box.holds_on_line(direction, node);
   });
@@ -80,9 +105,6 @@ void dissect(NodeRange nodes, const Box& box) {
       nodes.first, line, [&](const Node& node) { return node.place[direction] < middle; });
   std::sort(line, nodes.second,
             [](const Node& one, const Node& other) { return one.place < other.place; });
-  Box lower_half = box, upper_half = box;
-  lower_half.high[direction] = upper_half.low[direction] = middle;
-  lower_half.is_closed = upper_half.is_closed = box.is_closed && direction == 0;
   dissect({nodes.first, upper}, lower_half);
   dissect({upper, line}, upper_half);
 }
@@ -101,13 +123,18 @@ std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
   const auto& triangulation = handler.get_triangulation();
   const unsigned int degree = handler.get_fe().degree, n = degree + 1,
                      n_radial = count_radial(triangulation);
-  std::vector<Node> nodes(handler.n_dofs());
+  const IndexSet relevant = DoFTools::extract_locally_relevant_dofs(handler);
+  std::vector<Node> nodes(relevant.n_elements(), {{}, numbers::invalid_dof_index});
   LexicographicDofs dofs(handler);
   for (const auto& cell : handler.active_cell_iterators()) {
-    const CellId id = cell->id();
-    Place low = {
-        {double(id.get_coarse_cell_id() % n_radial), double(id.get_coarse_cell_id() / n_radial)}};
+    if (!cell->is_locally_owned())
+      continue;
+    Triangulation<2>::cell_iterator coarse = cell;
+    while (coarse->level() > 0)
+      coarse = coarse->parent();
+    Place low = {{double(coarse->index() % n_radial), double(coarse->index() / n_radial)}};
     double size = 1;
+    const CellId id = cell->id();
     for (const unsigned int child : id.get_child_indices()) {
       size /= 2;
       low[0] += size * (child % 2);
@@ -115,9 +142,14 @@ std::vector<types::global_dof_index> dissect(const DoFHandler<2>& handler) {
     }
     const auto& of_cell = dofs.of(cell);
     for (unsigned int i = 0; i < of_cell.size(); ++i)
-      nodes[of_cell[i]] = {{{low[0] + size * (i % n) / degree, low[1] + size * (i / n) / degree}},
-                           of_cell[i]};
+      nodes[relevant.index_within_set(of_cell[i])] = {
+          {{low[0] + size * (i % n) / degree, low[1] + size * (i / n) / degree}}, of_cell[i]};
   }
+  // Other cells have the rest.
+  nodes.erase(
+      std::remove_if(nodes.begin(), nodes.end(),
+                     [](const Node& node) { return node.dof == numbers::invalid_dof_index; }),
+      nodes.end());
   const double n_angular = triangulation.n_cells(0) / n_radial;
   dissect({nodes.begin(), nodes.end()}, {{{0, 0}}, {{double(n_radial), n_angular}}, true});
 

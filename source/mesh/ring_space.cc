@@ -1,6 +1,5 @@
 #include "rollwave/mesh/ring_space.h"
 
-#include "rollwave/base/mpi_processes.h"
 #include "rollwave/mesh/nested_dissection.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/scene/scene.h"
@@ -83,12 +82,10 @@ RingSpace::RingSpace(const Triangulation<2>& triangulation, const Scene& scene, 
     n_own_unknowns += !affine_constraints.is_constrained(dof);
   unknowns = Utilities::MPI::sum(n_own_unknowns, communicator());
 
-  if (is_serial(communicator()))
-    order = dissect(handler);
-  else
-    for (const auto& line : affine_constraints.get_lines())
-      for (const auto& entry : line.entries)
-        relevant.add_index(entry.first);
+  order = dissect(handler);
+  for (const auto& line : affine_constraints.get_lines())
+    for (const auto& entry : line.entries)
+      relevant.add_index(entry.first);
   partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, relevant, communicator());
   find_surface(scene);
 }

@@ -2,7 +2,6 @@
 
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
-#include "rollwave/solver/sparse_factor.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
@@ -79,7 +78,7 @@ FullMatrix<double> stiffness_of_cell(const FEValues<2>& values, const Scene& sce
 
 } // namespace
 
-void assemble_stiffness(const RingSpace& space, const Scene& scene, SystemMatrix& matrix) {
+void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
   RulesOfCells rules(space);
   // Cells of one radial interval and one length along z have the same matrix, made once.
   std::map<std::tuple<double, double, double>, FullMatrix<double>> known;
@@ -96,7 +95,7 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, SystemMatrix
     if (is_new)
       entry->second = stiffness_of_cell(rules.reinit(cell), scene);
     cell->get_dof_indices(dofs);
-    matrix.add(dofs, entry->second);
+    add(dofs, entry->second);
   }
 }
 

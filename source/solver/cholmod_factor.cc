@@ -77,6 +77,8 @@ struct CholmodFactor::Cholmod {
 
   /// Solves with L or L^T in place. cholmod_solve() would make two more copies of a large vector.
   void solve_triangle(decltype(cholmod_super_lsolve)* solve, std::vector<double>& values) {
+    if (values.empty()) // which CHOLMOD refuses
+      return;
     std::vector<double> workspace(factor->maxesize);
     cholmod_dense x = view(values), e = view(workspace);
     solve(factor, &x, &e, &common);
@@ -94,7 +96,7 @@ struct CholmodFactor::Cholmod {
   }
 };
 
-CholmodFactor::CholmodFactor(int n) : cholmod(std::make_unique<Cholmod>()), n(n) {}
+CholmodFactor::CholmodFactor(int n, int m) : cholmod(std::make_unique<Cholmod>()), n(n), m(m) {}
 
 void CholmodFactor::set_matrix(const LowerTriplets& triplets) {
   cholmod_triplet view = {};
@@ -131,17 +133,32 @@ std::vector<double> CholmodFactor::multiply(std::vector<double> x) const {
   return product;
 }
 
-std::vector<double> CholmodFactor::forward(std::vector<double> b) const {
-  cholmod->solve_triangle(cholmod_super_lsolve, b);
+dealii::Vector<double> CholmodFactor::condense(std::vector<double> b) const {
+  cholmod->solve_triangle(cholmod_super_lsolve, b); // (L^-1 b)_c = L_cc^-1 (b_c - K_ci K_ii^-1 b_i)
+  dealii::Vector<double> condensed(m);
+  if (m > 0)
+    schur_factor().vmult(condensed, dealii::Vector<double>(b.end() - m, b.end()));
+  return condensed;
+}
+
+std::vector<double> CholmodFactor::solve(std::vector<double> b,
+                                         const dealii::Vector<double>& x_c) const {
+  // L^T x = y with y_i = (L^-1 b)_i and y_c = L_cc^T x_c
+  if (b.empty())
+    b.resize(n);
+  else
+    cholmod->solve_triangle(cholmod_super_lsolve, b);
+  if (m > 0) {
+    dealii::Vector<double> y_c(m);
+    schur_factor().Tvmult(y_c, x_c);
+    std::copy(y_c.begin(), y_c.end(), b.end() - m);
+  }
+  cholmod->solve_triangle(cholmod_super_ltsolve, b);
+  std::copy(x_c.begin(), x_c.end(), b.end() - m); // without round-off
   return b;
 }
 
-std::vector<double> CholmodFactor::backward(std::vector<double> y) const {
-  cholmod->solve_triangle(cholmod_super_ltsolve, y);
-  return y;
-}
-
-dealii::FullMatrix<double> CholmodFactor::trailing_factor(int m) const {
+dealii::FullMatrix<double> CholmodFactor::schur_factor() const {
   const cholmod_factor& factor = *cholmod->factor;
   const int* const first_columns = static_cast<const int*>(factor.super);
   const int* const row_starts = static_cast<const int*>(factor.pi);

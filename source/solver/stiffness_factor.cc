@@ -30,21 +30,17 @@ StiffnessFactor::StiffnessFactor(const ContactBoundary& boundary, const Scene& s
                                  RunStatistics& statistics)
     : boundary(boundary) {
   const RingSpace& space = boundary.space();
-  std::unique_ptr<SystemMatrix> matrix;
+  std::optional<SystemMatrix> matrix;
   {
     const RunStatistics::Phase phase(statistics, "assembly");
-    matrix = make_system_matrix(space, space.constraints(), boundary.contact_nodes());
-    assemble_stiffness(space, scene, *matrix);
+    matrix.emplace(space, space.constraints(), boundary.contact_nodes());
+    assemble_stiffness(space, scene, [&](const auto& dofs, const auto& cell_matrix) {
+      matrix->add(dofs, cell_matrix);
+    });
     ++statistics.stiffness_assemblies;
   }
   const RunStatistics::Phase phase(statistics, "factorisation");
   factor = matrix->factorise(statistics);
-}
-
-Vector<double> StiffnessFactor::condense(const FieldVector& f, RunStatistics& statistics) const {
-  FieldVector rest = factor->apply(factor->solve(&f, Vector<double>(boundary.size()), statistics));
-  rest.sadd(-1, f);
-  return boundary.contact_values(rest);
 }
 
 FieldVector StiffnessFactor::expand(const FieldVector* f,

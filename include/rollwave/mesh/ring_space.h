@@ -78,12 +78,21 @@ public:
   /// The values of a field at the surface nodes, on every process.
   std::vector<double> surface_values(const FieldVector& field) const;
 
-  /// The order of dissect(); on one process only.
+  /// The degrees of freedom of the cells of this process in the order of dissect().
   const std::vector<dealii::types::global_dof_index>& elimination_order() const { return order; }
 
   /// The degrees of freedom whose values a process may ask for: those of its cells and of the cells
   /// next to them, and what constraints tie these to.
   const dealii::IndexSet& relevant_dofs() const { return relevant; }
+
+  /// The number of one of the relevant degrees of freedom among these, by which
+  /// FieldVector::local_element() gives its value. Those that this process owns come first.
+  unsigned int local_index(dealii::types::global_dof_index dof) const {
+    return partitioner->global_to_local(dof);
+  }
+  unsigned int n_local() const {
+    return partitioner->locally_owned_size() + partitioner->n_ghost_indices();
+  }
 
   /// A zero field.
   FieldVector make_field() const { return FieldVector(partitioner); }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <cstddef>
 #include <memory>
@@ -30,8 +31,8 @@ struct LowerTriplets {
 /**
  * The factorisation K = L L^T of a sparse symmetric positive definite matrix K of n rows by
  * CHOLMOD's supernodal method (Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, ACM Trans.
- * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. trailing_factor()
- * gives the factor L_cc of the Schur complement S of the last m unknowns:
+ * Math. Softw. 35 (2008) 22), which eliminates the unknowns in the order given. The last m of them
+ * (c) are parted from the others (i), and L_cc is the factor of their Schur complement S:
  *
  *         ( L_ii       )
  *     L = (            ),     S = L_cc L_cc^T = K_cc - K_ci K_ii^-1 K_ic.
@@ -39,7 +40,7 @@ struct LowerTriplets {
  */
 class CholmodFactor {
 public:
-  explicit CholmodFactor(int n);
+  CholmodFactor(int n, int m);
   CholmodFactor(CholmodFactor&& other) noexcept;
   ~CholmodFactor();
 
@@ -53,14 +54,14 @@ public:
   /// K x
   std::vector<double> multiply(std::vector<double> x) const;
 
-  /// L^-1 b
-  std::vector<double> forward(std::vector<double> b) const;
+  /// b_c - K_ci K_ii^-1 b_i
+  dealii::Vector<double> condense(std::vector<double> b) const;
 
-  /// L^-T y
-  std::vector<double> backward(std::vector<double> y) const;
+  /// x with the given x_c, where K_ii x_i = b_i - K_ic x_c. @param b empty for zero
+  std::vector<double> solve(std::vector<double> b, const dealii::Vector<double>& x_c) const;
 
   /// L_cc, m x m, with zeros above the diagonal.
-  dealii::FullMatrix<double> trailing_factor(int m) const;
+  dealii::FullMatrix<double> schur_factor() const;
 
   /// Entries of L, zeros within supernodes included, after set_matrix().
   double n_factor_entries() const;
@@ -68,7 +69,7 @@ public:
 private:
   struct Cholmod;
   std::unique_ptr<Cholmod> cholmod;
-  int n;
+  int n, m;
 };
 
 } // namespace rollwave

@@ -30,7 +30,9 @@ public:
   dealii::FullMatrix<double> schur_factor() const { return factor->schur_factor(); }
 
   /// g for the load @p f.
-  dealii::Vector<double> condense(const FieldVector& f, RunStatistics& statistics) const;
+  dealii::Vector<double> condense(const FieldVector& f, RunStatistics& statistics) const {
+    return factor->condense(f, statistics);
+  }
 
   /// The field u with K_ii u_i = f_i - K_ic u_c, constraints included.
   /// @param f the load, nullptr for none @param contact_displacement u_c
