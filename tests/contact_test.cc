@@ -19,9 +19,11 @@ using dealii::Vector;
 namespace {
 
 /// The lower triangular L with L L^T = S.
-FullMatrix<double> cholesky_factor(const FullMatrix<double>& schur) {
-  FullMatrix<double> factor(schur.m(), schur.m());
-  factor.cholesky(schur);
+dealii::LAPACKFullMatrix<double> cholesky_factor(const FullMatrix<double>& schur) {
+  FullMatrix<double> lower(schur.m(), schur.m());
+  lower.cholesky(schur);
+  dealii::LAPACKFullMatrix<double> factor(schur.m());
+  factor = lower;
   return factor;
 }
 

@@ -94,7 +94,7 @@ TEST(CholmodFactor, PartsTheLastUnknowns) {
     CholmodFactor cholesky(n, m);
     cholesky.set_matrix(matrix.triplets);
     cholesky.factorise();
-    const FullMatrix<double> factor = cholesky.schur_factor();
+    const dealii::LAPACKFullMatrix<double> factor = cholesky.schur_factor();
     FullMatrix<double> schur(m, m);
     if (m > 0)
       factor.mTmult(schur, factor);

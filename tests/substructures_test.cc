@@ -87,8 +87,8 @@ TEST_F(Substructures, AnswerAsOneProcessDoes) {
   const unsigned int m = whole.boundary->size();
   ASSERT_EQ(ring.boundary->size(), m);
 
-  const FullMatrix<double> lower = ring.factor->schur_factor(),
-                           expected = whole.factor->schur_factor();
+  const LAPACKFullMatrix<double> lower = ring.factor->schur_factor(),
+                                 expected = whole.factor->schur_factor();
   for (unsigned int i = 0; i < m; ++i)
     for (unsigned int j = 0; j < m; ++j)
       EXPECT_NEAR(lower(i, j), expected(i, j), 1e-11 * expected(i, i));

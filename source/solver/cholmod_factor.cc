@@ -158,7 +158,7 @@ std::vector<double> CholmodFactor::solve(std::vector<double> b,
   return b;
 }
 
-dealii::FullMatrix<double> CholmodFactor::schur_factor() const {
+dealii::LAPACKFullMatrix<double> CholmodFactor::schur_factor() const {
   const cholmod_factor& factor = *cholmod->factor;
   const int* const first_columns = static_cast<const int*>(factor.super);
   const int* const row_starts = static_cast<const int*>(factor.pi);
@@ -167,7 +167,7 @@ dealii::FullMatrix<double> CholmodFactor::schur_factor() const {
   const double* const values = static_cast<const double*>(factor.x);
   const int first = n - m;
 
-  dealii::FullMatrix<double> trailing(m, m);
+  dealii::LAPACKFullMatrix<double> trailing(m);
   for (std::size_t s = 0; s < factor.nsuper; ++s) {
     const int n_rows = row_starts[s + 1] - row_starts[s];
     for (int column = std::max(first, first_columns[s]); column < first_columns[s + 1]; ++column) {

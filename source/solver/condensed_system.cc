@@ -11,9 +11,8 @@ namespace rollwave {
 
 using namespace dealii;
 
-CondensedSystem::CondensedSystem(const FullMatrix<double>& schur_factor)
-    : factor(schur_factor.m()), schur(schur_factor.m()) {
-  factor = schur_factor;
+CondensedSystem::CondensedSystem(const LAPACKFullMatrix<double>& schur_factor)
+    : factor(schur_factor), schur(schur_factor.m()) {
   factor.mTmult(schur, factor);
   factor.set_property(LAPACKSupport::lower_triangular);
 }

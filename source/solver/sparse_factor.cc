@@ -6,7 +6,6 @@
 #include "rollwave/base/run_statistics.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <functional>
 #include <new>
@@ -80,43 +79,52 @@ Vector<double> shift_diagonal(LowerTriplets& triplets, int n_unknowns, int n_las
   return shift;
 }
 
-/// S_p of this process, by the numbers of the unknowns that all processes keep.
-FullMatrix<double> schur_complement(const EliminationOrder& order, const CholmodFactor& own,
-                                    const Vector<double>& shift) {
+/// The lower triangle of S_p of this process, by the numbers of the unknowns that all keep.
+LowerTriplets schur_complement(const EliminationOrder& order, const CholmodFactor& own,
+                               const Vector<double>& shift) {
   const unsigned int m = order.kept.size();
-  FullMatrix<double> of_all(order.n_kept_by_all);
-  LAPACKFullMatrix<double> lower(m), of_own(m);
+  LAPACKFullMatrix<double> schur(m);
   if (m > 0) {
-    lower = own.schur_factor();
-    lower.mTmult(of_own, lower);
+    const LAPACKFullMatrix<double> lower = own.schur_factor();
+    lower.mTmult(schur, lower);
   }
-  for (unsigned int i = 0; i < m; ++i) {
-    for (unsigned int j = 0; j < m; ++j)
-      of_all(order.kept[i], order.kept[j]) = of_own(i, j);
-    of_all(order.kept[i], order.kept[i]) -= shift(i);
-  }
-  return of_all;
+  LowerTriplets triplets;
+  triplets.reserve(m * (m + 1) / 2);
+  for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int i = j; i < m; ++i)
+      triplets.add(order.kept[i], order.kept[j], schur(i, j) - (i == j ? shift(i) : 0));
+  return triplets;
+}
+
+/// What each process has, one after the other, on all of them.
+template <typename T>
+std::vector<T> concatenate(MPI_Comm communicator, const std::vector<T>& own) {
+  const std::vector<int> sizes = Utilities::MPI::all_gather(communicator, int(own.size()));
+  std::vector<int> begins = {0};
+  for (const int size : sizes)
+    begins.push_back(begins.back() + size);
+  std::vector<T> all(begins.back());
+  const MPI_Datatype type = Utilities::MPI::mpi_type_id_for_type<T>;
+  MPI_Allgatherv(own.data(), own.size(), type, all.data(), sizes.data(), begins.data(), type,
+                 communicator);
+  return all;
 }
 
 /// The sum of the Schur complements of all processes, factorised.
 CholmodFactor join_factors(const EliminationOrder& order, const CholmodFactor& own,
                            const Vector<double>& shift, int n_contact_nodes,
                            MPI_Comm communicator) {
-  const int n = order.n_kept_by_all;
-  constexpr double n_matrices = 4; // S_p, their sum, its entries and its factor
-  require_memory(n_matrices * sizeof(double) * n * n,
-                 "the dense problem of " + std::to_string(n) +
-                     " unknowns in contact or between processes",
-                 communicator);
-  FullMatrix<double> sum = schur_complement(order, own, shift);
-  Utilities::MPI::sum(sum, communicator, sum);
-  LowerTriplets triplets;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= i; ++j)
-      if (sum(i, j) != 0)
-        triplets.add(i, j, sum(i, j));
-  CholmodFactor joined(n, n_contact_nodes);
-  joined.set_matrix(triplets);
+  const LowerTriplets triplets = schur_complement(order, own, shift);
+  const std::string purpose = "the problem of " + std::to_string(order.n_kept_by_all) +
+                              " unknowns in contact or between processes";
+  constexpr double bytes_of_entry = 2 * (2 * sizeof(int) + sizeof(double)); // CHOLMOD has a copy
+  require_memory(bytes_of_entry * Utilities::MPI::sum<double>(triplets.values.size(), communicator),
+                 purpose, communicator);
+  CholmodFactor joined(order.n_kept_by_all, n_contact_nodes);
+  joined.set_matrix({concatenate(communicator, triplets.rows),
+                     concatenate(communicator, triplets.columns),
+                     concatenate(communicator, triplets.values)});
+  require_memory(sizeof(double) * joined.n_factor_entries(), purpose, communicator);
   joined.factorise();
   return joined;
 }
@@ -191,7 +199,7 @@ FieldVector SparseFactor::apply(const FieldVector& x) const {
   return field;
 }
 
-FullMatrix<double> SparseFactor::schur_factor() const {
+LAPACKFullMatrix<double> SparseFactor::schur_factor() const {
   return (joined ? *joined : own).schur_factor();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <cstddef>
@@ -61,7 +61,7 @@ public:
   std::vector<double> solve(std::vector<double> b, const dealii::Vector<double>& x_c) const;
 
   /// L_cc, m x m, with zeros above the diagonal.
-  dealii::FullMatrix<double> schur_factor() const;
+  dealii::LAPACKFullMatrix<double> schur_factor() const;
 
   /// Entries of L, zeros within supernodes included, after set_matrix().
   double n_factor_entries() const;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
@@ -31,7 +30,7 @@ struct ContactState {
 class CondensedSystem {
 public:
   /// @param schur_factor the lower triangular L with L L^T = S
-  explicit CondensedSystem(const dealii::FullMatrix<double>& schur_factor);
+  explicit CondensedSystem(const dealii::LAPACKFullMatrix<double>& schur_factor);
   CondensedSystem(const CondensedSystem&) = delete; // deal.II's copies forget that L is triangular
   CondensedSystem& operator=(const CondensedSystem&) = delete;
 

@@ -4,6 +4,7 @@
 #include "rollwave/solver/elimination_order.h"
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <memory>
@@ -49,7 +50,7 @@ public:
   FieldVector apply(const FieldVector& x) const;
 
   /// The lower triangular L with L L^T = S, on all processes.
-  dealii::FullMatrix<double> schur_factor() const;
+  dealii::LAPACKFullMatrix<double> schur_factor() const;
 
 private:
   /// The values of a field at the unknowns of this process whose local index is below @p n_local;

@@ -3,7 +3,7 @@
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/solver/sparse_factor.h"
 
-#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <memory>
@@ -27,7 +27,7 @@ public:
   StiffnessFactor(const ContactBoundary& boundary, const Scene& scene, RunStatistics& statistics);
 
   /// The lower triangular L with L L^T = S, on all processes.
-  dealii::FullMatrix<double> schur_factor() const { return factor->schur_factor(); }
+  dealii::LAPACKFullMatrix<double> schur_factor() const { return factor->schur_factor(); }
 
   /// g for the load @p f.
   dealii::Vector<double> condense(const FieldVector& f, RunStatistics& statistics) const {
