@@ -23,8 +23,8 @@ namespace {
 
 /// Figure 4 on cells of degree 3 with hanging nodes inside of the ring and over the seam, on some
 /// processes.
-struct Ring {
-  Ring(const Scene& scene, const Parameters& parameters, MPI_Comm communicator)
+struct FactorisedRing {
+  FactorisedRing(const Scene& scene, const Parameters& parameters, MPI_Comm communicator)
       : triangulation(make_ring_mesh(scene, parameters.mesh, communicator)) {
     for (const auto& cell : triangulation->active_cell_iterators())
       if (cell->is_locally_owned() && std::cos(7 * cell->center()[1] + 9 * cell->center()[0]) > 0.4)
@@ -72,8 +72,8 @@ protected:
 };
 
 /// Expects two fields to have the same products with waves.
-void expect_same_field(const Ring& ring, const FieldVector& field, const Ring& whole,
-                       const FieldVector& expected) {
+void expect_same_field(const FactorisedRing& ring, const FieldVector& field,
+                       const FactorisedRing& whole, const FieldVector& expected) {
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 4; ++l)
       EXPECT_NEAR(ring.wave(k, l) * field, whole.wave(k, l) * expected,
@@ -82,7 +82,8 @@ void expect_same_field(const Ring& ring, const FieldVector& field, const Ring& w
 }
 
 TEST_F(Substructures, AnswerAsOneProcessDoes) {
-  const Ring ring(scene, parameters, MPI_COMM_WORLD), whole(scene, parameters, MPI_COMM_SELF);
+  const FactorisedRing ring(scene, parameters, MPI_COMM_WORLD),
+      whole(scene, parameters, MPI_COMM_SELF);
   RunStatistics statistics;
   const unsigned int m = whole.boundary->size();
   ASSERT_EQ(ring.boundary->size(), m);

@@ -269,12 +269,12 @@ const std::vector<ResultQuantity>& result_quantities() {
   return all;
 }
 
-const ResultQuantity& result_quantity(const std::string& name) {
+const ResultQuantity& result_quantity(std::string_view name) {
   const auto& all = result_quantities();
   const auto found = std::find_if(all.begin(), all.end(),
-                                  [&name](const auto& quantity) { return quantity.name == name; });
+                                  [name](const auto& quantity) { return quantity.name == name; });
   if (found == all.end())
-    throw std::out_of_range(name);
+    throw std::out_of_range(std::string(name));
   return *found;
 }
 

@@ -16,12 +16,14 @@ using Dofs = std::vector<types::global_dof_index>;
 std::vector<bool> find_unknowns_of_cells(const RingSpace& space,
                                          const AffineConstraints<double>& constraints) {
   std::vector<bool> is_of_cells(space.n_local());
-  for (const auto dof : space.elimination_order())
-    if (const auto* const entries = constraints.get_constraint_entries(dof))
+  for (const auto dof : space.elimination_order()) {
+    const auto* const entries = constraints.get_constraint_entries(dof);
+    if (!entries)
+      is_of_cells[space.local_index(dof)] = true;
+    else
       for (const auto& [unknown, weight] : *entries)
         is_of_cells[space.local_index(unknown)] = true;
-    else
-      is_of_cells[space.local_index(dof)] = true;
+  }
   return is_of_cells;
 }
 

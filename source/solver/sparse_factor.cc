@@ -66,8 +66,8 @@ void do_on_all(MPI_Comm communicator, const std::function<void()>& work) {
 }
 
 /// Doubles the diagonal of the last unknowns, and returns what it has added. The Schur complement
-/// of the cells of one process may be singular, since they need not touch the hub: with this shift
-/// it has a factor, and loses no more than the digits that K_p loses by rounding.
+/// of the cells of one process may be singular, since they need not touch the hub. With this shift
+/// it has a factor. Adding and subtracting it rounds no more digits away than elimination does.
 Vector<double> shift_diagonal(LowerTriplets& triplets, int n_unknowns, int n_last) {
   Vector<double> shift(n_last);
   const int first = n_unknowns - n_last;

@@ -172,7 +172,7 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
   const auto& [cylinder, road, material] =
       std::tie(plan.parameters.cylinder, plan.parameters.road, plan.parameters.material);
   if (study.study.true_errors)
-    if (const auto& exact =
+    if (const auto exact =
             known_or_computed(exact_solutions, {cylinder, road, material, scene.road.distance},
                               [&] { return find_exact_solution(scene); })) {
       result.errors = measure_true_errors(*solution, *exact);

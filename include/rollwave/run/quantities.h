@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rollwave {
@@ -48,7 +49,7 @@ struct ResultQuantity {
 const std::vector<ResultQuantity>& result_quantities();
 
 /// The quantity of a name. @throws std::out_of_range
-const ResultQuantity& result_quantity(const std::string& name);
+const ResultQuantity& result_quantity(std::string_view name);
 
 /// The guaranteed interval of a quantity in the user's units, by the quantities that end in
 /// _lower_bound and _upper_bound; nullopt where these do not exist or are infinite.
