@@ -5,7 +5,7 @@
 #include "rollwave/solver/sparse_factor.h"
 #include "test_scenes.h"
 
-#include <deal.II/base/function_lib.h>
+#include <deal.II/base/function.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools.h>
 

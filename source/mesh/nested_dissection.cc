@@ -62,7 +62,7 @@ struct Split {
       below += !is_on && place < middle;
     }
     above = nodes.second - nodes.first - below - on;
-    // Places on hanging edges may differ by round-off alone, which no smaller box tells apart.
+    // Two nodes of a hanging edge may be apart by round-off only. No smaller box separates them.
     is_possible = lowest < highest && box.low[direction] < middle && middle < box.high[direction];
     leaves_one_half = is_possible && (below == 0) != (above == 0);
   }

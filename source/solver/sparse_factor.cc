@@ -65,9 +65,9 @@ void do_on_all(MPI_Comm communicator, const std::function<void()>& work) {
     throw NotSolved(failure);
 }
 
-/// Doubles the diagonal of the last unknowns, and returns what it has added. The Schur complement
-/// of the cells of one process may be singular, since they need not touch the hub. With this shift
-/// it has a factor. Adding and subtracting it rounds no more digits away than elimination does.
+/// Doubles the diagonal of the last unknowns, and returns what it has added. The cells of a process
+/// may lie away from the hub, and then their Schur complement is singular. With this shift it has a
+/// factor. To subtract the shift again costs no more digits than the elimination does.
 Vector<double> shift_diagonal(LowerTriplets& triplets, int n_unknowns, int n_last) {
   Vector<double> shift(n_last);
   const int first = n_unknowns - n_last;
@@ -96,7 +96,7 @@ LowerTriplets schur_complement(const EliminationOrder& order, const CholmodFacto
   return triplets;
 }
 
-/// What each process has, one after the other, on all of them.
+/// The values of all processes in the order of their ranks. Every process gets them.
 template <typename T>
 std::vector<T> concatenate(MPI_Comm communicator, const std::vector<T>& own) {
   const std::vector<int> sizes = Utilities::MPI::all_gather(communicator, int(own.size()));
