@@ -1,6 +1,6 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
-#include "rollwave/base/memory.h"
+#include "rollwave/base/start.h"
 #include "rollwave/base/version.h"
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"

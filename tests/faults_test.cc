@@ -362,6 +362,30 @@ TEST_F(Faults, FullDiskLeavesWhatFitsComplete) {
   }
 }
 
+// The field is not written, so that the picture is the largest file.
+TEST_F(Faults, FullDiskForAPictureIsAFailureToWrite) {
+  const std::string call = "$rollwave " + scene + " --set 'Output/Files=summary, plot'";
+  ASSERT_EQ(shell(call).exit_code, 0);
+  const auto undisturbed = files();
+  const std::size_t script = undisturbed.at("scene.gp").size(),
+                    picture = undisturbed.at("scene.svg").size();
+  ASSERT_GT(picture, script + 2048);
+  fs::remove_all(directory / "out");
+  const Outcome outcome = shell("ulimit -f " + std::to_string(script / 512 + 2) + "; " + call);
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
+  EXPECT_TRUE(has("scene.gp"));
+  EXPECT_FALSE(has("scene.svg"));
+  expect_no_partial_files();
+}
+
+TEST_F(Faults, NumberOfThreadsThatIsNoneIsBadInput) {
+  for (const char* const number : {"", "0", "abc", "-1", "2x"})
+    EXPECT_EQ(
+        shell("DEAL_II_NUM_THREADS='" + std::string(number) + "' $rollwave --version").exit_code,
+        1);
+  EXPECT_EQ(shell("DEAL_II_NUM_THREADS=2 $rollwave --version").exit_code, 0);
+}
+
 TEST_F(Faults, LostScreenCostsNoFile) {
   ASSERT_EQ(run({}).exit_code, 0);
   const auto undisturbed = files();

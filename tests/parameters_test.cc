@@ -261,7 +261,9 @@ INSTANTIATE_TEST_SUITE_P(
         "Output/Unit names=m, s, `id`", "Output/Unit names=m, s, $N", "Output/Unit names=m, s, N'",
         "Output/Unit names=m, s, \\N", "Output/Directory=~/res", "Road/Curvature=1/0",
         "Road/Curvature=r", "Road/Curvature=1/", "Road/Curvature=max(1,2), 3",
-        "Road/Curvature=(1/150", "Mesh/Degree=3/2", "Cylinder/Inner radius=1/2,5"));
+        "Road/Curvature=(1/150", "Mesh/Degree=3/2", "Road/Load=200 : 4000 : 200",
+        "Mesh/Degree=1 | 2", "Study/Scenes=a: Mesh/Degree=1; a: Mesh/Degree=2",
+        "Cylinder/Inner radius=1/2,5"));
 
 TEST(Parameters, RefuseABraceInAFile) {
   expect_parts(refusal_of_text("subsection Mesh\n set Degree = {1|2}\nend\n"), {"Mesh", "Degree"});
@@ -305,6 +307,13 @@ TEST(Parameters, KeysOfUzawaAreVariedForThatMethodOnly) {
   EXPECT_EQ(
       plan_runs(parameters_of({"Contact/Method=uzawa", "Study/Vary=Contact/Rho = 1 | 2"})).size(),
       2u);
+}
+
+TEST(Parameters, StudiesHaveAtMostAMillionRuns) {
+  const std::string thousand = "0.501 : 0.9 : 0.000399"; // 1001 values
+  EXPECT_THROW(plan_runs(parameters_of({"Study/Vary=Road/Distance = " + thousand +
+                                        "; Cylinder/Angular velocity = " + thousand})),
+               BadValue);
 }
 
 TEST(Parameters, VaryOverListsAndRanges) {

@@ -247,18 +247,6 @@ TEST_F(RepeatedStudy, MakesEqualRunsOnce) {
   EXPECT_EQ(study.runs[0]->values, study.runs[2]->values);
 }
 
-TEST_F(RepeatedStudy, DiffersInScenesOfOneName) {
-  const std::vector<std::string> study = {
-      "Study/Scenes=a: Road/Distance=0.7; a: Road/Distance=0.9"};
-  run(study);
-  const std::string table = read("study.csv");
-  EXPECT_EQ(run(study), 2u);
-  EXPECT_EQ(read("study.csv"), table);
-  const Study again = rows(study);
-  EXPECT_EQ(again.value(0, "scene.road_distance"), 0.7);
-  EXPECT_EQ(again.value(1, "scene.road_distance"), 0.9);
-}
-
 TEST_F(RepeatedStudy, IsThatOfItsParts) {
   const std::vector<std::string> study = {
       "Study/Vary=Road/Distance = 0.7 | 0.8; Cylinder/Angular velocity = 0 | 0.5 | 1"};

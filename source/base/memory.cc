@@ -5,75 +5,59 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/lac/lapack_full_matrix.h>
 
-#include <cstdlib>
+#include <algorithm>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
-#include <string_view>
-#include <sys/mman.h>
-#include <sys/resource.h>
-#include <unistd.h>
+#include <string>
 
 namespace rollwave {
 
 namespace {
 
-/// MemAvailable of Linux in bytes, infinity where that is not known.
-double available_memory() {
-  std::ifstream lines("/proc/meminfo");
-  std::string name, unit;
-  for (double kibibytes = 0; lines >> name >> kibibytes && std::getline(lines, unit);)
-    if (name == "MemAvailable:")
-      return 1024 * kibibytes;
-  return std::numeric_limits<double>::infinity();
-}
-
-[[gnu::no_sanitize_address, gnu::no_sanitize_undefined]] bool is_address_space_limited() {
-  rlimit limit;
-  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-}
-
-/// True if a buffer of OpenBLAS fits, with the rest of a first call.
-bool has_room_for_blas() {
-  constexpr std::size_t buffer = 160 << 20;
-  void* const room =
-      mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (room == MAP_FAILED)
-    return false;
-  munmap(room, buffer);
-  return true;
-}
-
-/// OpenBLAS takes 128 MiB of addresses for each thread in its constructor, and tries for ever if
-/// there are none. Under a limit of the address space the program starts again with one thread,
-/// unless the user has set a number, and ends where that does not fit.
-[[gnu::no_sanitize_address, gnu::no_sanitize_undefined]] void
-fit_blas_into_address_space(int, char** argv, char** environment) {
-  if (!is_address_space_limited())
-    return;
-  environ = environment; // which the C library has not set yet
-  const auto is_set = [](const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value && *value;
-  };
-  if (!is_set("OPENBLAS_NUM_THREADS") && !is_set("OMP_NUM_THREADS")) {
-    setenv("OPENBLAS_NUM_THREADS", "1", 1);
-    setenv("OMP_NUM_THREADS", "1", 1);
-    execv("/proc/self/exe", argv); // since the C library forgets the new variables
+/// The number behind the first word @p name of a file's lines; nullopt where there is none.
+std::optional<double> number_behind(const std::filesystem::path& file, const std::string& name) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string first;
+    double number = 0;
+    if (words >> first >> number && first == name)
+      return number;
   }
-  if (has_room_for_blas())
-    return;
-  constexpr std::string_view message =
-      "rollwave: not solved: not enough memory; raise the limit of the address space (ulimit -v)\n";
-  [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
-  _exit(2);
+  return {};
 }
 
-/// The loader calls the functions in this section before the constructors of libraries.
-[[gnu::section(".preinit_array"),
-  gnu::used]] void (*before_libraries)(int, char**, char**) = fit_blas_into_address_space;
+/// The number that a file holds; nullopt for a file that is not there, or the word "max".
+std::optional<double> number_in(const std::filesystem::path& file) {
+  double number = 0;
+  return std::ifstream(file) >> number ? std::optional(number) : std::nullopt;
+}
+
+/// The files of the kernel that describe one version of control groups.
+struct GroupFiles {
+  const char *root, *limit, *usage;
+  const char* reclaimable; ///< the word in memory.stat for cached files, which the kernel can drop
+};
+
+/// What the limits of the control group @p path and of those around it leave. Paths that are not
+/// seen, as in a container whose own group is the root, are passed over.
+double memory_of_groups(const std::filesystem::path& root, std::filesystem::path path,
+                        const GroupFiles& files) {
+  double least = std::numeric_limits<double>::infinity();
+  for (bool is_root = false; !is_root; path = path.parent_path()) {
+    is_root = !path.has_relative_path();
+    const auto group = root / files.root / path.relative_path();
+    const auto limit = number_in(group / files.limit), usage = number_in(group / files.usage);
+    if (limit && usage)
+      least =
+          std::min(least, *limit - *usage +
+                              number_behind(group / "memory.stat", files.reclaimable).value_or(0));
+  }
+  return std::max(least, 0.);
+}
 
 double sum_on_machine(MPI_Comm communicator, double value) {
   if (is_serial(communicator))
@@ -87,6 +71,30 @@ double sum_on_machine(MPI_Comm communicator, double value) {
 
 } // namespace
 
+double available_memory(const std::filesystem::path& root) {
+  constexpr GroupFiles version_1 = {"sys/fs/cgroup/memory", "memory.limit_in_bytes",
+                                    "memory.usage_in_bytes", "total_inactive_file"},
+                       version_2 = {"sys/fs/cgroup", "memory.max", "memory.current",
+                                    "inactive_file"};
+  double least = std::numeric_limits<double>::infinity();
+  if (const auto kibibytes = number_behind(root / "proc/meminfo", "MemAvailable:"))
+    least = 1024 * *kibibytes;
+  // Lines "NUMBER:CONTROLLERS:PATH"; version 2 has the number 0 and no controllers.
+  std::ifstream groups(root / "proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {
+    const auto colon = line.find(':'), second = line.find(':', colon + 1);
+    if (second == std::string::npos)
+      continue;
+    const std::string controllers = line.substr(colon + 1, second - colon - 1),
+                      path = line.substr(second + 1);
+    if (controllers.empty())
+      least = std::min(least, memory_of_groups(root, path, version_2));
+    else if ((',' + controllers + ',').find(",memory,") != std::string::npos)
+      least = std::min(least, memory_of_groups(root, path, version_1));
+  }
+  return least;
+}
+
 void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator) {
   constexpr double mebibyte = 1024. * 1024;
   const double needed = sum_on_machine(communicator, bytes), available = available_memory();
@@ -98,16 +106,6 @@ void require_memory(double bytes, const std::string& purpose, MPI_Comm communica
   const std::string first_lack = first_text(communicator, lack.str());
   if (!first_lack.empty())
     throw NotEnoughMemory(first_lack);
-}
-
-bool take_blas_buffer() {
-  if (!is_address_space_limited())
-    return true;
-  if (!has_room_for_blas())
-    return false;
-  dealii::LAPACKFullMatrix<double> one(1), square(1);
-  one.Tmmult(square, one);
-  return true;
 }
 
 double peak_memory_mib() {

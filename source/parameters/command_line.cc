@@ -97,8 +97,9 @@ std::vector<Setting> settings_of(const CommandLine& line, MPI_Comm communicator)
   if (!line.file.empty()) {
     settings = read_settings(line.file, communicator);
     if (!last_of(settings, "Output/Directory") && !last_of(line.settings, "Output/Directory"))
-      settings.push_back({"Output", "Directory", "output/" + line.file.stem().string(),
-                          "default from the name of " + printable(line.file.string())});
+      settings.push_back(
+          {"Output", "Directory", "output/" + line.file.stem().string(),
+           "default from the name of " + printable(line.file.string()) + " without --output"});
   }
   settings.insert(settings.end(), line.settings.begin(), line.settings.end());
   return settings;

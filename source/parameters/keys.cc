@@ -3,6 +3,8 @@
 #include "rollwave/base/text.h"
 #include "rollwave/scene/expression.h"
 
+#include <boost/algorithm/string/replace.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -29,6 +31,15 @@ std::string nearest(const std::string& section, const std::string& name) {
     if (candidate->first <= known.begin()->first + similar)
       text += (text.empty() ? "; did you mean " : ", ") + candidate->second;
   return text + "? (case matters)" + hint_on_letters(section + ' ' + name);
+}
+
+/// A remark on values for several runs, which only Study/Vary takes; empty without any.
+std::string hint_on_values(const Setting& setting) {
+  const auto values = split(boost::algorithm::replace_all_copy(setting.value, "|", ":"), ':');
+  return values.size() > 1 && std::all_of(values.begin(), values.end(), value_if_any)
+             ? "; several values make a study, as in Study/Vary = " + setting.path() + " = " +
+                   setting.value
+             : "";
 }
 
 } // namespace
@@ -96,7 +107,7 @@ void apply(Setting& setting, Parameters& parameters) {
   } catch (const std::invalid_argument& error) {
     throw BadInput(refusal(setting, std::string("invalid. ") + error.what() +
                                         (*error.what() ? " " : "") + "Expected: " + key.text +
-                                        hint_on_letters(value)));
+                                        hint_on_letters(value) + hint_on_values(setting)));
   } catch (const BadInput& error) {
     throw BadInput(refusal(setting, error.what()));
   }

@@ -50,6 +50,10 @@ std::pair<std::string, std::string> split_word(const std::string& line) {
 } // namespace
 
 std::vector<Setting> parse_settings(const std::string& text, const std::string& name) {
+  const std::string beginning = text.substr(0, 2);
+  if (beginning == "\xFF\xFE" || beginning == "\xFE\xFF" ||
+      beginning.find('\0') != std::string::npos)
+    throw BadInput(name + ": this file is in UTF-16; save it in UTF-8");
   const std::string byte_order_mark = "\xEF\xBB\xBF";
   const bool has_mark = boost::algorithm::starts_with(text, byte_order_mark);
   std::istringstream in(has_mark ? text.substr(byte_order_mark.size()) : text);

@@ -120,7 +120,11 @@ std::vector<NamedScene> parse_scenes(const Setting& setting) {
     const auto colon = part.find(':');
     if (colon == 0 || colon == std::string::npos || part.find('"') < colon)
       throw std::invalid_argument("");
-    scenes.push_back({trimmed(part.substr(0, colon)), {}});
+    const std::string name = trimmed(part.substr(0, colon));
+    if (std::any_of(scenes.begin(), scenes.end(),
+                    [&](const NamedScene& scene) { return scene.name == name; }))
+      throw BadInput("there are two scenes of the name " + in_quotes(name));
+    scenes.push_back({name, {}});
     for (const std::string& assignment : split_unquoted(part.substr(colon + 1), '&'))
       scenes.back().settings.push_back(parse_run_setting(assignment, setting));
   }

@@ -1,6 +1,7 @@
 #include "rollwave/plot/gnuplot.h"
 
 #include "rollwave/base/atomic_file.h"
+#include "rollwave/base/errors.h"
 #include "rollwave/base/text.h"
 
 #include <boost/algorithm/string/replace.hpp>
@@ -60,8 +61,10 @@ void draw(const std::vector<Picture>& pictures, const fs::path& directory, Writt
     const double left = std::max(most_seconds - timer.wall_time(), 0.1);
     if (run_shell(change_directory + std::to_string(left) + " gnuplot -d -e \"picture='" +
                       file.part().filename().string() + "'\" " + script + " 2>&1",
-                  messages) &&
-        read_file(file.part()).find("</svg>") != std::string::npos) { // else the disk is full
+                  messages)) {
+      if (read_file(file.part()).find("</svg>") == std::string::npos) // which gnuplot passes over
+        throw NotWritten((directory / svg).string() + " could not be written as a whole: the disk "
+                                                      "is full, or the size of files is limited");
       written.n_bytes += file.commit();
       written.files.push_back(directory / svg);
     } else

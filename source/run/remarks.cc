@@ -139,8 +139,12 @@ std::string shortfall_of_error(const RunOptions& options, const Mesh& mesh, cons
   const double wanted = options.mesh.wanted_relative_error;
   if (!(wanted > 0) || !result.certified || result.certified->relative <= wanted)
     return {};
-  return "the certified relative error is " + rounded_up(result.certified->relative, 6) +
-         ", wanted " + rounded(wanted, 6) + "; " +
+  const std::string missed = "the certified relative error is " +
+                             rounded_up(result.certified->relative, 6) + ", wanted " +
+                             rounded(wanted, 6);
+  if (result.is_interrupted)
+    return missed;
+  return missed + "; " +
          (is_at_finest_level(*mesh.triangulation) &&
                   result.cycles.size() <= most_cycles(options.mesh) &&
                   has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options))

@@ -20,16 +20,6 @@ namespace rollwave {
 
 using namespace dealii;
 
-namespace {
-
-/// About how many nodes of the first mesh lie in the zone of contact.
-double count_contact_nodes(const Scene& scene, const MeshOptions& mesh) {
-  const double share = (scene.zone_end - scene.zone_begin) / (2 * numbers::PI);
-  return share * std::ldexp(1. * mesh.degree * mesh.angular_cells, mesh.global_refinements);
-}
-
-} // namespace
-
 void check_simulation(const Scene& scene, const RunOptions& options) {
   check_mesh_size(options.mesh);
   constexpr double most_nodes = 20000; // a dense factorisation takes some minutes
@@ -200,7 +190,6 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
 Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                   const Progress& progress) {
   check_simulation(scene, options);
-  require_dense_memory(count_contact_nodes(scene, options.mesh), communicator);
   RunStatistics statistics(progress.phase_ended);
   Mesh mesh = make_mesh(scene, options, communicator, statistics);
   if (is_interrupted(communicator))

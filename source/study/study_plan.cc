@@ -1,5 +1,6 @@
 #include "rollwave/study/study_plan.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/base/version.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
@@ -10,12 +11,25 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <map>
 #include <utility>
 
 namespace rollwave {
 
 namespace {
+
+/// @throws BadValue for a study whose plan alone would take long
+void check_number_of_runs(const StudyOptions& study) {
+  constexpr double most = 1e6;
+  double n_runs = std::max<std::size_t>(study.scenes.size(), 1);
+  for (const Variation& variation : study.vary)
+    n_runs *= variation.size();
+  if (n_runs > most)
+    throw BadValue("Study", "Vary",
+                   "the study would have " + rounded(n_runs, 15) + " runs, and " +
+                       rounded(most, 15) + " are the most");
+}
 
 /// All combinations of one choice from each variation, the last varying fastest.
 std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& variations) {
@@ -85,6 +99,7 @@ std::string lower_case_name(const Key& key) {
 
 std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   const StudyOptions& study = parameters.study;
+  check_number_of_runs(study);
   const std::vector<NamedScene> single(1);
   const auto choices = combinations(study.vary);
   std::vector<RunPlan> plans;

@@ -2,21 +2,23 @@
 
 #include <mpi.h>
 
+#include <filesystem>
 #include <string>
 
 namespace rollwave {
 
-/// Refuses work that needs more memory than the machine has available: the system might end any
-/// process instead of failing an allocation. All processes of @p communicator must call it.
+/// The memory in bytes that this process can take: the least of MemAvailable of Linux and of what
+/// the limits of its control groups leave (version 1 or 2, as set by Slurm and containers, whose
+/// kernel ends a process without a word); cached files that the kernel can drop count as available.
+/// Infinity where none of them is known. @param root of the files of the kernel
+double available_memory(const std::filesystem::path& root = "/");
+
+/// Refuses work that needs more memory than there is, by available_memory(): the system might end
+/// any process instead of failing an allocation. All processes of @p communicator must call it.
 /// @param bytes that this process needs @param purpose of the memory, for the message
 /// @throws NotEnoughMemory on all processes
 void require_memory(double bytes, const std::string& purpose,
                     MPI_Comm communicator = MPI_COMM_SELF);
-
-/// Makes OpenBLAS take its buffer of 128 MiB before other memory is used if the address space is
-/// limited (ulimit -v), since OpenBLAS waits for ever where there is no room later.
-/// @return false if the buffer does not fit
-bool take_blas_buffer();
 
 /// The largest amount of memory that this process has held so far, in MiB.
 double peak_memory_mib();

@@ -21,7 +21,11 @@ struct Mesh {
   MPI_Comm communicator() const { return space->communicator(); }
 };
 
-/// The first mesh of @p options. @throws BadValue, NotEnoughMemory as make_ring_mesh()
+/// About how many nodes of the first mesh lie in the zone of contact.
+double count_contact_nodes(const Scene& scene, const MeshOptions& mesh);
+
+/// The first mesh of @p options. @throws BadValue as make_ring_mesh(); NotEnoughMemory also where
+/// there is not enough for the whole run
 Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                RunStatistics& statistics);
 
