@@ -30,6 +30,8 @@ def anchors(path):
 
 own = [path for path in doc.glob('*.md') if path not in (parameters, quantities)]
 cookbook = sorted((doc / 'cookbook').glob('*.md'))
+installed = [root / name for name in
+             ('README.md', 'LICENSE', 'CITATION.cff', 'doc', 'prm', 'tests/README.md')]
 pages = [readme, *own, *cookbook, *sorted((doc / 'results').glob('*.md'))]
 
 for page in pages:
@@ -39,6 +41,8 @@ for page in pages:
         path, _, anchor = target.partition('#')
         file = (page.parent / path).resolve() if path else page
         require(file.exists(), f'{page.name}: {target} is not there')
+        require(any(file == place or place in file.parents for place in installed),
+                f'{page.name}: {target} is not installed')
         if anchor and file.exists():
             require(anchor in anchors(file), f'{page.name}: {target} has no such heading')
 

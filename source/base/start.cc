@@ -14,7 +14,7 @@ namespace rollwave {
 namespace {
 
 // The sanitizers do not run yet.
-__attribute__((no_sanitize("address", "undefined"))) [[noreturn]] void
+[[noreturn]] __attribute__((no_sanitize("address", "undefined"))) void
 end_with(std::string_view message, int exit_code) {
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
   _exit(exit_code);
