@@ -410,7 +410,41 @@ TEST(Certificate, BoundsTheDisplacementThatIsWritten) {
       }
   }
   EXPECT_GT(squared, 0);
-  EXPECT_NEAR(certified.energy_norm - certified.eta, std::sqrt(squared), 1e-6 * std::sqrt(squared));
+  EXPECT_LE(certified.energy_norm, (certified.eta + std::sqrt(squared)) * (1 + 1e-12));
+}
+
+TEST(Certificate, OfTheDisplacementIsTheLargestOfTheSmallerBound) {
+  Draw draw(7);
+  for (int i = 0; i < 100; ++i) {
+    const double eta = draw.number(0, 1), eta_0 = draw.number(0, 2), gap_work = draw.number(0, 0.5),
+                 moved = draw.number(0, 1);
+    double largest = 0;
+    for (int k = 0; k <= 2000; ++k) {
+      const double t = k * PI / 4000, x = eta * std::cos(t), y = eta * std::sin(t);
+      largest = std::max(largest, std::min(x + moved, eta_0 / 2 + std::sqrt(eta_0 * eta_0 / 4 +
+                                                                            gap_work + y * moved)));
+    }
+    const double bound = bound_of_discrete(eta, eta_0, gap_work, moved);
+    EXPECT_NEAR(bound, largest, 1e-3 * largest);
+    EXPECT_GE(bound, largest * (1 - 1e-12));
+    EXPECT_LE(bound, eta + moved);
+  }
+  // Without a difference of v and u_h the bound is that of v.
+  EXPECT_NEAR(bound_of_discrete(0.3, 0.3, 0, 0), 0.3, 1e-12);
+}
+
+TEST(Certificate, OfTheDisplacementIsWithin2_5OfItsErrorInThePaper) {
+  for (const PaperScene& paper : paper_scenes()) {
+    Parameters parameters = paper.parameters();
+    parameters.mesh.degree = 2;
+    parameters.mesh.radial_cells = 10;
+    parameters.mesh.angular_cells = 240;
+    const Scene scene = make_scene(parameters);
+    const Solution solution = simulate(scene, parameters);
+    const double error = measure_true_errors(solution, *find_exact_solution(scene)).energy_norm;
+    EXPECT_GE(solution.result.certified->energy_norm, error) << paper.figure;
+    EXPECT_LE(solution.result.certified->energy_norm, 2.5 * error) << paper.figure;
+  }
 }
 
 TEST(Certificate, VanishesForTheZeroSolution) {

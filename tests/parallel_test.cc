@@ -146,6 +146,13 @@ TEST_F(Processes, CertifyForcesWithJumpsLikeOne) {
                                " --set 'Mesh/Degree=2' --set 'Mesh/Adaptive cycles=1'");
 }
 
+// The width that the points of a force leave is that of the whole mesh, whatever cells they own.
+TEST_F(Processes, SeeAForceInASmallHubLikeOne) {
+  expect_answer_of_one(scene + " --set 'Cylinder/Radial force=r*cos(z)' --set 'Cylinder/Inner "
+                               "radius=0.001' --set 'Mesh/Radial cells=3' --set 'Mesh/Angular "
+                               "cells=60'");
+}
+
 // Where cells on both sides touch in a vertex only.
 TEST_F(Processes, RefineAcrossTheSeamLikeOne) {
   expect_answer_of_one(

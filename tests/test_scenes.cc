@@ -57,14 +57,19 @@ FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   return assemble_load(space, ForceIntegral(space, scene, shapes), shapes);
 }
 
-Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road) {
-  return {inner_radius,
-          outer_radius,
-          angular_velocity,
-          {},
-          {[road](double) { return road; }, [](double) { return 0.; }},
-          dealii::numbers::PI / 2,
-          5 * dealii::numbers::PI / 2};
+Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double phi) {
+  // The inside of a drum around the axle.
+  const double distance = outer_radius + phi;
+  const Road road = {outer_radius, distance, -1 / distance};
+  Scene scene = {inner_radius,
+                 outer_radius,
+                 angular_velocity,
+                 {},
+                 make_obstacle(road),
+                 dealii::numbers::PI / 2,
+                 5 * dealii::numbers::PI / 2};
+  scene.road = road;
+  return scene;
 }
 
 } // namespace rollwave

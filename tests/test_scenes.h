@@ -56,6 +56,6 @@ SystemMatrix stiffness_matrix(const RingSpace& space, const Scene& scene,
 FieldVector assemble_load(const RingSpace& space, const Scene& scene);
 
 /// A scene that touches a constant obstacle phi around the whole circle.
-Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double road);
+Scene full_circle(double inner_radius, double outer_radius, double angular_velocity, double phi);
 
 } // namespace rollwave

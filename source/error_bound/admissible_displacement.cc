@@ -6,17 +6,29 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace rollwave {
 
 using namespace dealii;
 
-FieldVector project_contact_nodes(const ContactBoundary& boundary, const ContactProblem& problem,
+AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Road& road) {
+  double reach = 0;
+  for (const SurfaceEdge& edge : boundary.space().surface_edges())
+    for (const double x : {-road.tangent_angle(), road.tangent_angle()})
+      if (from_lowest_point(edge.begin) <= x && x <= from_lowest_point(edge.end))
+        reach = std::max(reach, edge.end - edge.begin);
+  return {road, reach};
+}
+
+FieldVector project_contact_nodes(const ContactBoundary& boundary, const AdmissibleRoad& road,
                                   const std::vector<bool>& active, FieldVector field) {
-  for (unsigned int i = 0; i < problem.size(); ++i) {
-    const auto dof = boundary.contact_nodes()[i].dof;
-    if (field.in_local_range(dof))
-      field(dof) = active[i] ? problem.phi(i) : std::min(field(dof), problem.phi(i));
+  for (unsigned int i = 0; i < active.size(); ++i) {
+    const auto& [dof, angle, area] = boundary.contact_nodes()[i];
+    if (!field.in_local_range(dof))
+      continue;
+    const double limit = road.limit(angle).value;
+    field(dof) = active[i] ? limit : std::min(field(dof), limit);
   }
   boundary.space().constraints().distribute(field);
   field.update_ghost_values();
@@ -27,19 +39,51 @@ namespace {
 
 /// The zero of @p function between two places where it has different signs.
 template <typename Function>
-double root(const Function& function, double left, double right, double at_left, double at_right) {
+double root(const Function& function, double left, double right) {
   std::uintmax_t most_evaluations = 60;
   const auto bracket = boost::math::tools::toms748_solve(
-      function, left, right, at_left, at_right, boost::math::tools::eps_tolerance<double>(40),
-      most_evaluations);
+      function, left, right, boost::math::tools::eps_tolerance<double>(40), most_evaluations);
   return (bracket.first + bracket.second) / 2;
+}
+
+/// What is known of a function on an interval.
+struct Shape {
+  bool has_one_sign;
+  bool is_monotone;
+  double size; ///< its largest value in size, at most
+};
+
+/// The shape of a function by its coefficients c_k of Chebyshev's polynomials, from its values at
+/// @p n points: |c_0| > sum_(k > 0) |c_k| means one sign, and |c_1| > sum_(k > 1) k^2 |c_k| a
+/// derivative of one sign, since |T_k| <= 1 and |T_k'| <= k^2 there.
+template <typename Function>
+Shape shape_of(const Function& function, double begin, double end, unsigned int n) {
+  std::vector<double> values;
+  for (unsigned int j = 0; j < n; ++j)
+    values.push_back(
+        function((begin + end + (end - begin) * std::cos((j + 0.5) * numbers::PI / n)) / 2));
+  double size = 0, size_of_slope = 0, mean = 0, slope = 0;
+  for (unsigned int k = 0; k < n; ++k) {
+    double sum = 0;
+    for (unsigned int j = 0; j < n; ++j)
+      sum += values[j] * std::cos(k * (j + 0.5) * numbers::PI / n);
+    const double coefficient = std::abs(sum) * (k == 0 ? 1 : 2) / n;
+    size += coefficient;
+    size_of_slope += k * k * coefficient;
+    if (k == 0)
+      mean = coefficient;
+    if (k == 1)
+      slope = coefficient;
+  }
+  return {2 * mean > size, 2 * slope > size_of_slope, size};
 }
 
 } // namespace
 
 AdmissibleTrace::AdmissibleTrace(const ContactBoundary& boundary, const Scene& scene,
-                                 const FieldVector& field, const std::vector<bool>& active)
-    : phi(scene.phi), discrete(boundary.space(), field) {
+                                 const AdmissibleRoad& road, const FieldVector& field,
+                                 const std::vector<bool>& active)
+    : road(road), discrete(boundary.space(), field) {
   const auto is_active = [&](unsigned int node) {
     const auto contact = boundary.contact_number(node);
     return contact && active[*contact];
@@ -62,76 +106,95 @@ AdmissibleTrace::pieces_of(unsigned int edge, const std::pair<double, double>& z
   const bool ends_after = end - zone.second <= angular_round_off;
   const double zone_begin = begins_before ? 0 : (zone.first - begin) / length;
   const double zone_end = ends_after ? 1 : (zone.second - begin) / length;
-  if (touches && zone_begin == 0 && zone_end == 1)
-    return {{Piece::Kind::touching, 0, 1}};
-  if (zone_begin < zone_end)
-    return limited_pieces(edge, zone_begin, zone_end);
-  return {{Piece::Kind::outside, 0, 1}};
-}
-
-std::vector<AdmissibleTrace::Piece>
-AdmissibleTrace::limited_pieces(unsigned int edge, double zone_begin, double zone_end) const {
-  const auto excess_at = [&](double t) { return excess(edge, t).value; };
-  const auto slope_at = [&](double t) { return excess(edge, t).slope; };
-  std::vector<double> ends = {zone_begin};
-  const auto split = [&](double left, double right, double at_left, double at_right) {
-    if (at_left * at_right < 0)
-      ends.push_back(root(excess_at, left, right, at_left, at_right));
-  };
-  const QGaussLobatto<1> nodes(discrete.edges()[edge].nodes.size());
-  static const QGaussLobatto<1> samples(8);
-  for (unsigned int k = 0; k + 1 < nodes.size(); ++k) {
-    const double low = std::max(zone_begin, nodes.point(k)[0]);
-    const double high = std::min(zone_end, nodes.point(k + 1)[0]);
-    if (!(low < high))
-      continue;
-    for (unsigned int i = 0; i + 1 < samples.size(); ++i) {
-      const double left = low + (high - low) * samples.point(i)[0];
-      const double right = low + (high - low) * samples.point(i + 1)[0];
-      const double at_left = excess_at(left), at_right = excess_at(right);
-      const double rise_left = slope_at(left), rise_right = slope_at(right);
-      // Between samples the excess may have its only positive stretch, however short, and at
-      // active nodes it vanishes: an extremum parts what a comparison of signs would miss.
-      if (rise_left * rise_right < 0) {
-        const double extremum = root(slope_at, left, right, rise_left, rise_right);
-        const double at_extremum = excess_at(extremum);
-        split(left, extremum, at_left, at_extremum);
-        split(extremum, right, at_extremum, at_right);
-      } else
-        split(left, right, at_left, at_right);
-    }
-    ends.push_back(high);
-  }
-
+  if (!(zone_begin < zone_end))
+    return {{Piece::Kind::outside, 0, 1}};
+  const auto kind =
+      touches && zone_begin == 0 && zone_end == 1 ? Piece::Kind::touching : Piece::Kind::limited;
   std::vector<Piece> pieces;
   if (zone_begin > 0)
     pieces.push_back(
-        {Piece::Kind::outside, 0, zone_begin, 0, -std::max(0., excess_at(zone_begin))});
-  for (unsigned int i = 0; i + 1 < ends.size(); ++i)
-    pieces.push_back({Piece::Kind::limited, ends[i], ends[i + 1]});
+        {Piece::Kind::outside, 0, zone_begin, 0, -std::max(0., excess(edge, zone_begin).value)});
+  const std::vector<double> cuts = smooth_stretches(edge, zone_begin, zone_end);
+  for (unsigned int i = 0; i + 1 < cuts.size(); ++i)
+    add_pieces(edge, {kind, cuts[i], cuts[i + 1]}, pieces);
   if (zone_end < 1)
-    pieces.push_back({Piece::Kind::outside, zone_end, 1, -std::max(0., excess_at(zone_end)), 0});
+    pieces.push_back(
+        {Piece::Kind::outside, zone_end, 1, -std::max(0., excess(edge, zone_end).value), 0});
   return pieces;
+}
+
+std::vector<double> AdmissibleTrace::smooth_stretches(unsigned int edge, double t_begin,
+                                                      double t_end) const {
+  const auto& [begin, end, nodes] = discrete.edges()[edge];
+  std::vector<double> cuts = {t_begin, t_end};
+  const auto cut_at = [&](double t) {
+    if (t_begin < t && t < t_end)
+      cuts.push_back(t);
+  };
+  // At active nodes the excess vanishes.
+  const QGaussLobatto<1> lobatto(nodes.size());
+  for (const Point<1>& node : lobatto.get_points())
+    cut_at(node[0]);
+  for (const double x : road.corners())
+    cut_at((x - from_lowest_point(begin)) / (end - begin));
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+void AdmissibleTrace::add_pieces(unsigned int edge, const Piece& piece,
+                                 std::vector<Piece>& pieces) const {
+  const auto& [begin, end, nodes] = discrete.edges()[edge];
+  const double length = end - begin, middle = (piece.t_begin + piece.t_end) / 2;
+  // Here nothing is left but round-off.
+  constexpr double shortest = 1e-9;
+  const bool is_short = piece.t_end - piece.t_begin < shortest;
+  const auto add_both_sides_of = [&](double t) {
+    add_pieces(edge, {piece.kind, piece.t_begin, t}, pieces);
+    add_pieces(edge, {piece.kind, t, piece.t_end}, pieces);
+  };
+  if (!is_short && !road.is_resolved(begin + piece.t_begin * length, begin + piece.t_end * length))
+    return add_both_sides_of(middle);
+  if (is_short || piece.kind == Piece::Kind::touching) {
+    pieces.push_back(piece);
+    return;
+  }
+  const auto excess_at = [&](double t) { return excess(edge, t).value; };
+  const Shape shape = shape_of(excess_at, piece.t_begin, piece.t_end, n_points() + 5);
+  const double round_off = 1e-14 * std::abs(discrete.value(edge, middle));
+  if (shape.has_one_sign || shape.size <= round_off)
+    pieces.push_back(piece);
+  else if (!shape.is_monotone)
+    add_both_sides_of(middle);
+  else if (!(excess_at(piece.t_begin) * excess_at(piece.t_end) < 0))
+    pieces.push_back(piece);
+  else {
+    const double t = root(excess_at, piece.t_begin, piece.t_end);
+    pieces.push_back({piece.kind, piece.t_begin, t});
+    pieces.push_back({piece.kind, t, piece.t_end});
+  }
 }
 
 SurfaceTrace::ValueAndSlope AdmissibleTrace::excess(unsigned int edge, double t) const {
   const auto& [begin, end, nodes] = discrete.edges()[edge];
-  const double z = begin + t * (end - begin);
+  const auto [limit, slope_of_limit] = road.limit(begin + t * (end - begin));
   const auto [value, slope] = discrete.value_and_slope(edge, t);
-  return {value - phi(z), slope - phi.slope(z)};
+  return {value - limit, slope - slope_of_limit};
 }
 
 AdmissibleTrace::Correction AdmissibleTrace::correction(unsigned int edge, const Piece& piece,
                                                         double t) const {
+  const auto& [begin, end, nodes] = discrete.edges()[edge];
+  const double length = end - begin;
   if (piece.kind == Piece::Kind::outside) {
     const double slope = (piece.value_end - piece.value_begin) / (piece.t_end - piece.t_begin);
-    const auto& [begin, end, nodes] = discrete.edges()[edge];
-    return {piece.value_begin + slope * (t - piece.t_begin), slope / (end - begin), 0};
+    return {piece.value_begin + slope * (t - piece.t_begin), slope / length, 0};
   }
   const auto [above, slope] = excess(edge, t);
+  const double z = begin + t * length, limit = road.limit(z).value;
+  const double limit_to_road = road.upper(z) - limit; // 0 where they are the same
   if (piece.kind == Piece::Kind::limited && above <= 0)
-    return {0, 0, -above};
-  return {-above, -slope, 0};
+    return {0, 0, limit_to_road - above};
+  return {-above, -slope, limit_to_road};
 }
 
 double AdmissibleTrace::displacement(unsigned int edge, const Piece& piece, double t) const {

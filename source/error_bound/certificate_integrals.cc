@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace rollwave {
 
@@ -25,10 +26,10 @@ public:
                 const RadialShapesOfMesh& shapes)
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
-        rule(fields.force ? fields.force->rule() : QGauss<1>(n)), along_road(n + 5),
-        load_functions(rollwave::load_functions(scene)), dofs(space.dof_handler()), u(n * n),
-        moved(n * n), psi(n * n), line_u(n), line_u_z(n), line_moved(n), line_moved_z(n),
-        line_psi(n), line_psi_z(n) {
+        rule(fields.force ? fields.force->rule() : QGauss<1>(n)),
+        along_road(fields.trace.n_points()), load_functions(rollwave::load_functions(scene)),
+        dofs(space.dof_handler()), u(n * n), moved(n * n), psi(n * n), line_u(n), line_u_z(n),
+        line_moved(n), line_moved_z(n), line_psi(n), line_psi_z(n) {
     for (const auto& point : rule.get_points())
       lines.emplace_back(lagrange, point[0]);
   }
@@ -123,8 +124,11 @@ private:
       sums.work_of_force += weight * q_h_here * v_r;
       for (unsigned int k = 0; k < n_loads; ++k)
         sums.loads[k].work_of_force += weight * q_h_here * (*slopes)[k][q] * w[k];
-      if (is_moved)
-        sums.moved_squared += weight * r * moved_energy(q, alpha, correction_r, correction_z);
+      const auto [w_r, w_z] =
+          is_moved ? moved_slopes(q, correction_r, correction_z) : std::pair(0., 0.);
+      sums.moved_squared += weight * r * (alpha * w_z * w_z + w_r * w_r);
+      sums.discrete_squared += weight * r * alpha * (z_part - w_z) * (z_part - w_z) +
+                               radial->weight_over_r[q] * (r_part + r * w_r) * (r_part + r * w_r);
     }
     return sums;
   }
@@ -142,14 +146,13 @@ private:
     }
   }
 
-  /// alpha w_z^2 + w_r^2 of w = v - u_h, which has these derivatives beyond those of its nodal
-  /// values.
-  double moved_energy(unsigned int q, double alpha, double w_r, double w_z) const {
+  /// (w_r, w_z) of w = v - u_h, which has these derivatives beyond those of its nodal values.
+  std::pair<double, double> moved_slopes(unsigned int q, double w_r, double w_z) const {
     for (unsigned int i = 0; i < n; ++i) {
       w_r += radial->shapes[n * q + i].derivative * line_moved[i];
       w_z += radial->shapes[n * q + i].value * line_moved_z[i];
     }
-    return alpha * w_z * w_z + w_r * w_r;
+    return {w_r, w_z};
   }
 
   /// R' of both loads at the radii of a cell.

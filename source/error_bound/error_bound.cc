@@ -5,10 +5,12 @@
 #include "rollwave/error_bound/dual_system.h"
 #include "rollwave/scene/scene.h"
 
+#include <boost/math/tools/roots.hpp>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -51,7 +53,10 @@ CertifiedError bound_error(const Scene& scene, const CertificateIntegrals& integ
   if (!std::isfinite(delta))
     return error;
   const double error_of_v = error.eta + delta, norm = std::sqrt(error.norm_squared);
-  error.energy_norm = error_of_v + std::sqrt(integrals.moved_squared);
+  error.energy_norm =
+      bound_of_discrete(error.eta, std::sqrt(double(integrals.discrete_squared)),
+                        integrals.gap_work / 2, std::sqrt(double(integrals.moved_squared))) +
+      delta;
   // A lower bound of |u|. Below 1e-9 of the error bound it is round-off.
   const double smallest_norm = norm - error_of_v;
   if (error.energy_norm == 0)
@@ -73,13 +78,32 @@ CertifiedError bound_error(const Scene& scene, const CertificateIntegrals& integ
 
 } // namespace
 
+double bound_of_discrete(double eta, double eta_0, double gap_work, double moved) {
+  // x = eta cos(t), y = eta sin(t): the first bound falls with t, the second one grows.
+  const auto difference = [=](double t) {
+    const double by_fluxes =
+        eta_0 / 2 + std::sqrt(eta_0 * eta_0 / 4 + gap_work + eta * std::sin(t) * moved);
+    return eta * std::cos(t) + moved - by_fluxes;
+  };
+  const double at_begin = difference(0), at_end = difference(PI / 2);
+  if (!(at_begin > 0))
+    return eta + moved;
+  if (!(at_end < 0))
+    return eta_0 / 2 + std::sqrt(eta_0 * eta_0 / 4 + gap_work + eta * moved);
+  std::uintmax_t most_evaluations = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(
+      difference, 0., PI / 2, at_begin, at_end, boost::math::tools::eps_tolerance<double>(40),
+      most_evaluations);
+  return eta * std::cos(low) + moved;
+}
+
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
-                    const ContactProblem& problem, const ContactSolution& contact,
-                    const FieldVector& field, const ForceIntegral* force, const DualSystem& dual,
-                    RunStatistics& statistics) {
+                    const ContactSolution& contact, const FieldVector& field,
+                    const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "certificate");
-  const FieldVector displacement = project_contact_nodes(boundary, problem, contact.active, field);
-  const AdmissibleTrace trace(boundary, scene, displacement, contact.active);
+  const AdmissibleRoad road = admissible_road(boundary, scene.road);
+  const FieldVector displacement = project_contact_nodes(boundary, road, contact.active, field);
+  const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
   const FieldVector potential = dual.stress_function(scene, pressures, force, statistics);
   std::vector<double> cell_bounds;

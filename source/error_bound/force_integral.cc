@@ -82,11 +82,12 @@ unsigned int place_of(double value, const std::vector<double>& list) {
   return std::lower_bound(list.begin(), list.end(), value) - list.begin();
 }
 
-/// The largest distance between neighbours in an increasing list.
-double widest_step(const std::vector<double>& list) {
-  std::vector<double> steps(list.size());
-  std::adjacent_difference(list.begin(), list.end(), steps.begin());
-  return *std::max_element(steps.begin() + 1, steps.end());
+/// The largest distance between neighbours in an increasing list, from @p begin to @p end.
+double widest_step(const std::vector<double>& list, double begin, double end) {
+  double widest = 0;
+  for (unsigned int k = place_of(begin, list); k < place_of(end, list); ++k)
+    widest = std::max(widest, list[k + 1] - list[k]);
+  return widest;
 }
 
 /// Q between two angles.
@@ -94,7 +95,6 @@ struct SectorSamples {
   std::vector<std::vector<double>> lines;     ///< at some radii, on the lines of the rule along z
   std::vector<double> missed_along_r;         ///< of the middle line
   std::vector<double> missed_along_z_squared; ///< mean squares of Q - Q_h, at the ends of cells
-  double widest_gap;                          ///< between the points of the finer rules
 };
 
 /// @param gauss rule along r between the radii
@@ -125,7 +125,7 @@ SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Qu
     return line;
   };
   const QMidpoint<1> midpoint;
-  SectorSamples samples{{}, {}, std::vector<double>(ends.size()), 0};
+  SectorSamples samples{{}, {}, std::vector<double>(ends.size())};
   std::vector<std::vector<double>> coarse_lines;
   for (const Point<1>& point : rule.get_points()) {
     samples.lines.push_back(from_surface(point[0], gauss));
@@ -151,8 +151,6 @@ SectorSamples sample_sector(const Scene& scene, const QGauss<1>& gauss, const Qu
     for (unsigned int k = 0; k < radii.size(); ++k)
       samples.missed_along_r[k] += std::abs(line[k] - samples.lines[middle][k]);
   }
-  const double widest = (gauss.point(n / 2)[0] - gauss.point(n / 2 - 1)[0]) / n_parts;
-  samples.widest_gap = widest * std::max(widest_step(ends) / n_parts, widest_step(radii));
   return samples;
 }
 
@@ -202,7 +200,7 @@ void ForceIntegral::integrate_expression(const RingSpace& space, const Scene& sc
   width = Utilities::MPI::max(width, space.communicator());
 }
 
-/// Sets Q_h, delta and width on the cells between two angles.
+/// Sets Q_h, delta and the width on the cells between two angles.
 void ForceIntegral::integrate_sector(const Scene& scene, const std::vector<double>& mesh_radii,
                                      const std::vector<Cell>& cells, const Shapes& shapes) {
   const double begin = cells.front()->vertex(0)[1], length = cells.front()->vertex(3)[1] - begin;
@@ -219,11 +217,16 @@ void ForceIntegral::integrate_sector(const Scene& scene, const std::vector<doubl
   std::sort(radii.begin(), radii.end());
   const SectorSamples samples =
       sample_sector(scene, inwards, angular, lagrange, ends, radii, begin, length);
-  width = std::max({width, samples.widest_gap, scene.outer_radius * length / (n_lines - 1)});
+  width = std::max(width, scene.outer_radius * length / (n_lines - 1));
+  const unsigned int n = inwards.size();
+  const double widest = (inwards.point(n / 2)[0] - inwards.point(n / 2 - 1)[0]) / n_parts;
   for (const Cell& cell : cells) {
     const double low = cell->vertex(0)[0], high = cell->vertex(3)[0];
     const RadialShapes& radial = shapes.on(low, high);
     const unsigned int index = cell->active_cell_index(), n_r = radial.r.size();
+    // Only in own cells, since a process has no radii in the others.
+    width = std::max({width, widest * widest_step(radii, low, high),
+                      widest * widest_step(ends, low, high) / n_parts});
     double between = 0, along_r = 0;
     for (unsigned int p = 0; p < angular.size(); ++p) {
       for (const double r : radial.r)

@@ -51,8 +51,8 @@ std::optional<Certificate> certify_solution(const RunOptions& options, const Loa
         if (!dual)
           dual = std::make_unique<DualSystem>(space, solution.scene, statistics);
         certificate =
-            certify(solution.boundary, solution.scene, solution.problem, solution.contact,
-                    solution.displacement, load ? &load->integral : nullptr, *dual, statistics);
+            certify(solution.boundary, solution.scene, solution.contact, solution.displacement,
+                    load ? &load->integral : nullptr, *dual, statistics);
       },
       "the error could not be certified",
       "use fewer unknowns, or set Certificate/Error bound to false", space.communicator(),

@@ -30,13 +30,14 @@ struct CertificateIntegrals {
   long double gap_work = 0;      ///< the road's term alone, 2 b int lambda (phi - v) dz
   long double norm_squared = 0;
   long double work_of_force = 0;
-  long double moved_squared = 0; ///< a(v - u_h, v - u_h)
+  long double moved_squared = 0;    ///< a(v - u_h, v - u_h)
+  long double discrete_squared = 0; ///< eta_0^2, the integral over cells of eta^2 for u_h
   std::array<LoadIntegrals, 2> loads = {};
 
-  std::array<long double*, 11> all() {
+  std::array<long double*, 12> all() {
     return {{&bound_squared, &gap_work, &norm_squared, &work_of_force, &moved_squared,
-             &loads[0].trace, &loads[0].pressure, &loads[0].work_of_force, &loads[1].trace,
-             &loads[1].pressure, &loads[1].work_of_force}};
+             &discrete_squared, &loads[0].trace, &loads[0].pressure, &loads[0].work_of_force,
+             &loads[1].trace, &loads[1].pressure, &loads[1].work_of_force}};
   }
 
   void add(CertificateIntegrals other, double weight) {

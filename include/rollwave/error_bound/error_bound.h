@@ -23,7 +23,7 @@ struct CertificateOptions {
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.
 struct CertifiedError {
-  double energy_norm; ///< upper bound of sqrt(a(u_h - u, u_h - u)): eta + delta + |u_h - v|
+  double energy_norm; ///< upper bound of sqrt(a(u_h - u, u_h - u))
   double force_data;  ///< delta, the part of energy_norm for the difference of Q and Q_h
   double relative;    ///< upper bound of the same over sqrt(a(u, u)); infinite if not known
   double lower_bound; ///< of J(u)
@@ -38,6 +38,23 @@ struct CertifiedError {
 };
 
 /**
+ * An upper bound of e = |u - u_h|, |w|^2 = a(w, w), for u_h that may lie above the road between
+ * nodes. With an admissible v and a flux tau in equilibrium with the pressure lambda, exact flux
+ * sigma and exact pressure lambda*, let x = |u - v| and y = |sigma - tau| in the norm of A^(-1),
+ * A = diag(1, alpha) in (r, z), so that x^2 + y^2 <= eta^2. Then
+ *
+ *     e <= x + d,                    d = |v - u_h|,
+ *     e^2 <= eta_0 e + R + y d,      eta_0 = |tau - A grad u_h|,   R = b int lambda (phi - v) dz,
+ *
+ * the latter since int (sigma - tau) grad w = b int (lambda - lambda*) w dz for every w that
+ * vanishes on the hub. The bound is the largest value of the smaller one over all x and y.
+ *
+ * @param gap_work R @param moved d
+ * @return at most eta + d
+ */
+double bound_of_discrete(double eta, double eta_0, double gap_work, double moved);
+
+/**
  * A guaranteed bound of the error, without constants. With a displacement v that obeys v <= phi on
  * the whole contact zone, and a flux tau in equilibrium with the force and with a contact pressure
  * lambda >= 0 in the zone,
@@ -45,8 +62,8 @@ struct CertifiedError {
  *     eta^2 = int r [ (tau_z - alpha v_z)^2 / alpha + (tau_r - v_r)^2 ] dr dz
  *             + 2 b int lambda (phi - v) dz
  *
- * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2, so that u_h is within
- * eta + |u_h - v| of u, |w|^2 = a(w, w). The loads have the intervals of bound_load().
+ * obeys  J(v) - eta^2 / 2 <= J(u) <= J(v)  and  a(v - u, v - u) <= eta^2. The error of u_h has the
+ * bound of bound_of_discrete(). The loads have the intervals of bound_load().
  *
  * v is the discrete displacement except in the cells at the surface, where the correction c(z) of
  * AdmissibleTrace is added, fading linearly to the inner side of the cell. tau comes from
@@ -57,11 +74,11 @@ struct CertifiedError {
  * where s(r) = int_r^b rho alpha drho, so that psi_s = -psi_r / (r alpha).
  *
  * Q_h is that of ForceIntegral, which misses the force by no more than delta in the dual norm, so
- * that a(v - u, v - u)^(1/2) <= eta + delta by the triangle inequality, and the bounds of J open
- * accordingly.
+ * that all bounds of errors grow by delta: the exact solution for Q_h is within delta of u. The
+ * bounds of J open accordingly.
  *
- * All integrals are taken by Gauss' rules that are exact for the polynomials in z, those along the
- * road with degree + 6 points. The bound assumes that these resolve phi, and that the points of
+ * All integrals are taken by Gauss' rules that are exact for the polynomials in z, and exact to
+ * round-off on the pieces of AdmissibleTrace along the road. The bound assumes that the points of
  * ForceIntegral see what a force does.
  */
 struct Certificate {
@@ -75,8 +92,7 @@ struct Certificate {
 /// @param force that of the scene, nullptr without
 /// @param dual of the same space and speed
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
-                    const ContactProblem& problem, const ContactSolution& contact,
-                    const FieldVector& field, const ForceIntegral* force, const DualSystem& dual,
-                    RunStatistics& statistics);
+                    const ContactSolution& contact, const FieldVector& field,
+                    const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics);
 
 } // namespace rollwave
