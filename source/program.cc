@@ -27,16 +27,25 @@ namespace rollwave {
 
 namespace {
 
+/// The last line of a call that makes a part of a study, with the call that joins the parts.
+void report_part(std::ostream& out, const Study& study, unsigned int n_made,
+                 const std::string& program, const std::filesystem::path& directory) {
+  out << "\nPart " << study.part->number << " of " << study.part->count << ": ";
+  if (study.wanted_runs().empty())
+    out << "no runs, since the study has " << study.plans.size();
+  else
+    out << n_made << " runs made, " << study.n_ended() - n_made << " reused";
+  out << ". When all parts have ended, join them with: " << program << ' '
+      << directory / "parameters.prm" << std::endl;
+}
+
 void run_and_report_study(Study& study, const Parameters& parameters,
                           const std::vector<std::filesystem::path>& older,
                           const std::string& program, MPI_Comm communicator, std::ostream& out) {
   out << version_text() << "\n\n";
   const unsigned int n_made = run_study(study, parameters, out, communicator);
   if (study.part)
-    out << "\nPart " << study.part->number << " of " << study.part->count << ": " << n_made
-        << " runs made, " << study.n_ended() - n_made
-        << " reused. When all parts have ended, join them with: " << program << ' '
-        << std::filesystem::path(parameters.output.directory) / "parameters.prm" << std::endl;
+    report_part(out, study, n_made, program, parameters.output.directory);
   else if (process_number(communicator) == 0) {
     out << '\n' << table_as_text(study);
     print_study_notes(out, study);
@@ -45,8 +54,9 @@ void run_and_report_study(Study& study, const Parameters& parameters,
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
   const auto wanted = study.wanted_runs();
-  if (std::none_of(wanted.begin(), wanted.end(),
-                   [&](unsigned int run) { return study.runs[run]->is_solved(); }))
+  if (!wanted.empty() && std::none_of(wanted.begin(), wanted.end(), [&](unsigned int run) {
+        return study.runs[run]->is_solved();
+      }))
     throw NotSolved("no run of the study was solved; the first: " +
                     study.runs[wanted.front()]->failure);
 }

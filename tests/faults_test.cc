@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <list>
 #include <map>
 #include <random>
 #include <thread>
@@ -261,68 +262,48 @@ TEST_F(Faults, KilledAtAnyMomentLeavesCompleteFiles) {
   }
 }
 
-TEST_F(Faults, KilledStudyEndsAsTheUndisturbedOne) {
-  const std::vector<std::string> study = {
-      "Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.75 | 0.8 | 0.85; Contact/Method = active "
-      "set | uzawa",
-      "Cylinder/Radial force=1", "Output/Files="};
-  const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(study).exit_code, 0);
-  const Seconds duration = std::chrono::steady_clock::now() - begin;
-  const auto undisturbed = figures_of_study(read("study.csv"));
-  fs::remove_all(directory / "out");
-
-  std::minstd_rand random(1);
-  std::uniform_real_distribution<double> share(0.3, 1.);
-  for (unsigned int i = 0; i < 5; ++i) {
-    RunningProgram program(arguments(study));
-    if (i == 0)
-      program.await("\n2 of "); // of the table
-    else
-      std::this_thread::sleep_for(share(random) * duration);
-    program.end_by(SIGKILL);
-    if (!has("study.csv"))
-      continue;
-    const auto kept = figures_of_study(read("study.csv"));
-    ASSERT_LE(kept.size(), undisturbed.size());
-    EXPECT_TRUE(std::equal(kept.begin(), kept.end(), undisturbed.begin()));
-  }
-  ASSERT_EQ(run(study).exit_code, 0);
-  EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
-  expect_no_partial_files();
-}
-
-// With a copy of itself and another study in the same directory.
-TEST_F(Faults, StudiesThatAreKilledSideBySideEndAsTheUndisturbedOnes) {
+// Next to two copies of itself, three parts of it and another study, all in one directory.
+TEST_F(Faults, StudyThatIsKilledSideBySideWithOthersEndsAsTheUndisturbedOne) {
   const std::string distances = "Road/Distance = 0.7 : 0.92 : 0.02";
-  const std::vector<std::string> one = {"Study/Vary=" + distances + "; Mesh/Degree = 1 | 2",
-                                        "Output/Files="},
-                                 other = {"Study/Vary=Mesh/Degree = 2; " + distances +
-                                              "; Road/Curvature = 0 | 1 | -0.1",
-                                          "Output/Files="};
+  const std::vector<std::string> tiny = {"Mesh/Radial cells=2", "Mesh/Angular cells=24",
+                                         "Output/Files=", "Study/Files of each run=contact"};
+  const auto arguments_of = [&](const std::string& vary, const std::string& part = "") {
+    auto all = arguments(tiny);
+    all.insert(all.end(), {"--set", "Study/Vary=" + vary});
+    if (!part.empty())
+      all.insert(all.end(), {"--part", part});
+    return all;
+  };
+  const std::string one = distances + "; Mesh/Degree = 1 | 2",
+                    other = "Mesh/Degree = 2; " + distances + "; Road/Curvature = 0 | 1 | -0.1";
   const auto begin = std::chrono::steady_clock::now();
-  ASSERT_EQ(run(one).exit_code, 0);
+  ASSERT_EQ(RunningProgram(arguments_of(one)).end().exit_code, 0);
   const Seconds duration = std::chrono::steady_clock::now() - begin;
   const auto undisturbed = figures_of_study(read("study.csv"));
-  const auto n_points = lines_of(read("study-profiles.csv")).size();
+  const auto profiles = read("study-profiles.csv");
   ASSERT_EQ(undisturbed.size(), 25u);
   fs::remove_all(directory / "out");
 
   std::minstd_rand random(2);
-  std::uniform_real_distribution<double> share(0.1, 0.8);
-  for (unsigned int i = 0; i < 4; ++i) {
-    RunningProgram first(arguments(one)), second(arguments(other)), third(arguments(one));
-    for (RunningProgram* const program : {&second, &first, &third}) {
-      std::this_thread::sleep_for(share(random) * duration);
-      program->end_by(SIGKILL);
+  std::uniform_real_distribution<double> share(0.1, 1.);
+  for (unsigned int i = 0; i < 5; ++i) { // six kills each
+    std::list<RunningProgram> programs;
+    programs.emplace_back(arguments_of(other));
+    programs.emplace_back(arguments_of(one));
+    programs.emplace_back(arguments_of(one));
+    for (const char* const part : {"1/3", "2/3", "3/3"})
+      programs.emplace_back(arguments_of(one, part));
+    for (RunningProgram& program : programs) {
+      std::this_thread::sleep_for(share(random) * duration / 2);
+      program.end_by(SIGKILL);
     }
-    if (i == 1)
-      fs::remove(directory / "out" / "study.csv");
   }
-  const Outcome outcome = run(one);
+  const Outcome outcome = RunningProgram(arguments_of(one)).end();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_EQ(figures_of_study(read("study.csv")), undisturbed);
-  EXPECT_EQ(lines_of(read("study-profiles.csv")).size(), n_points);
+  EXPECT_EQ(lines_of(read("study-profiles.csv")).size(), lines_of(profiles).size());
+  for (const CsvRow& row : csv_rows(read("study.csv")))
+    EXPECT_GT(read(row.at("files") + "/contact.csv").size(), 1000u);
 }
 
 #ifndef __SANITIZE_ADDRESS__ // which needs the whole address space

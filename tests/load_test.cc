@@ -1,7 +1,7 @@
 // A prescribed load: the distance that gives it, against the exact answer.
 #include "rollwave/base/errors.h"
 #include "rollwave/run/simulation.h"
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 #include "rollwave/verify/reference_solution.h"
 
 #include "test_scenes.h"

@@ -250,16 +250,16 @@ TEST_F(StudyOnProcesses, WaitForRankZeroToWrite) {
   const std::filesystem::path slow = directory / "gnuplot";
   std::ofstream(slow) << "#!/bin/sh\nsleep 0.3\nexec $(command -v -p gnuplot) \"$@\"\n";
   std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
-  // A study of 300 meshes, interrupted once the first of its rows is in the table: long before the
+  // A study of 300 meshes, interrupted once the first of its records is there: long before the
   // last, however fast the machine.
   std::string cells = "400";
   for (int n = 401; n < 700; ++n)
     cells += " | " + std::to_string(n);
   std::ofstream(directory / "rank.sh")
       << "exec $rollwave " << scene << " --set 'Mesh/Radial cells=5' --set 'Study/True errors=true'"
-      << " --set 'Study/Vary=Mesh/Angular cells = " << cells << "' &\nuntil grep -q ^4 '"
-      << (directory / "out" / "study.csv").string()
-      << "' 2>/dev/null; do sleep 0.1; done\nkill -TERM $!\nwait $!\n";
+      << " --set 'Study/Vary=Mesh/Angular cells = " << cells << "' &\nuntil ls '"
+      << (directory / "out" / "runs").string()
+      << "' 2>/dev/null | grep -q 'json$'; do sleep 0.1; done\nkill -TERM $!\nwait $!\n";
   const Outcome outcome = shell("export PATH='" + directory.string() + "':$PATH; timeout 60 " +
                                 on_processes(3) + "sh '" + (directory / "rank.sh").string() + "'");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;

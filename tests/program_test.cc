@@ -80,12 +80,12 @@ TEST_F(Program, NamesFilesOfEarlierRuns) {
   EXPECT_EQ(note, single.text.rfind("older files"));
   const std::string names = single.text.substr(note, single.text.find('\n', note) - note);
   for (const char* name : {"study.csv", "study.txt", "study.tex", "study-profiles.csv", "study.svg",
-                           "study.gp", "run-001"}) {
+                           "study.gp", "runs"}) {
     EXPECT_NE(names.find(name), std::string::npos) << names;
     EXPECT_TRUE(has(name)) << name;
   }
   EXPECT_EQ(names.find("summary.json"), std::string::npos) << names;
-  EXPECT_TRUE(has("run-001/contact.csv"));
+  EXPECT_TRUE(has(csv_rows(read("study.csv")).front().at("files") + "/contact.csv"));
   const Outcome again = shell(study);
   EXPECT_NE(again.text.find("2 of 2 runs are reused"), std::string::npos) << again.text;
   EXPECT_NE(again.text.find("older files in this directory: contact.csv"), std::string::npos);
@@ -114,14 +114,15 @@ TEST_F(Program, RefusesToWriteOverFilesOfOthers) {
 TEST_F(Program, MakesAStudyInParts) {
   const std::string study =
       "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.7 | 0.8 | 0.9'";
-  for (const char* const wrong : {"0/2", "3/2", "1/4", "1", "1/", "/2", "-1/2", "1/2/3", "a/b",
-                                  "1/0", "99999999999/99999999999", "1.5/2"})
+  for (const char* const wrong : {"0/2", "3/2", "1", "1/", "/2", "-1/2", "1/2/3", "a/b", "1/0",
+                                  "99999999999/99999999999", "1.5/2"})
     EXPECT_EQ(shell(study + " --part " + wrong).exit_code, 1) << wrong;
   EXPECT_EQ(shell("$rollwave " + scene + " --part 1/2").exit_code, 1);
-  EXPECT_FALSE(has("study.csv") || has("study.part-1-of-2.csv"));
+  EXPECT_FALSE(has("runs"));
+  const Outcome none = shell(study + " --part 4/4");
+  EXPECT_EQ(none.exit_code, 0) << none.text;
   const Outcome part = shell(study + " --part 1/2");
   ASSERT_EQ(part.exit_code, 0) << part.text;
-  EXPECT_EQ(csv_rows(read("study.part-1-of-2.csv")).size(), 2u);
   EXPECT_FALSE(has("study.csv") || has("study.txt"));
   EXPECT_NE(part.text.find("Part 1 of 2: 2 runs"), std::string::npos) << part.text;
   ASSERT_EQ(shell(study + " --part 2/2").exit_code, 0);
@@ -133,7 +134,32 @@ TEST_F(Program, MakesAStudyInParts) {
   EXPECT_NE(joined.text.find("3 of 3 runs are reused"), std::string::npos) << joined.text;
   EXPECT_EQ(joined.text.find("older files"), std::string::npos) << joined.text;
   EXPECT_EQ(csv_rows(read("study.csv")).size(), 3u);
-  EXPECT_TRUE(has("study-curves.svg") && has("study.part-1-of-2.csv"));
+  EXPECT_TRUE(has("study-curves.svg"));
+}
+
+// Neither its place nor how it is linked says which program has made a run.
+TEST_F(Program, GoesOnWhenItIsInstalled) {
+  const std::string study = scene + " --set 'Study/Vary=Road/Distance = 0.7 | 0.8'";
+  ASSERT_EQ(shell("$rollwave " + study).exit_code, 0);
+  const fs::path prefix = directory / "prefix";
+  ASSERT_EQ(
+      shell("cmake --install '" ROLLWAVE_BUILD_DIRECTORY "' --prefix '" + prefix.string() + "'")
+          .exit_code,
+      0);
+  const Outcome again = shell("'" + (prefix / "bin" / "rollwave").string() + "' " + study);
+  EXPECT_NE(again.text.find("2 of 2 runs are reused"), std::string::npos) << again.text;
+}
+
+TEST_F(Program, ReplacesALinkAndLeavesItsTarget) {
+  const std::string study = "$rollwave " + scene + " --set 'Study/Vary=Road/Distance = 0.7 | 0.8'";
+  ASSERT_EQ(shell(study).exit_code, 0);
+  std::ofstream(directory / "target") << "mine\n";
+  fs::remove(directory / "out" / "study.csv");
+  fs::create_symlink(directory / "target", directory / "out" / "study.csv");
+  ASSERT_EQ(shell(study).exit_code, 0);
+  EXPECT_EQ(csv_rows(read("study.csv")).size(), 2u);
+  EXPECT_FALSE(fs::is_symlink(directory / "out" / "study.csv"));
+  EXPECT_EQ(fs::file_size(directory / "target"), 5u);
 }
 
 TEST_F(Program, DrawsItsPicturesAgainFromTheirScripts) {
@@ -292,6 +318,12 @@ TEST_F(Program, RunsAStudy) {
   }
 }
 
+/// The entry of study.pvd for the run of a row of study.csv.
+std::string series_entry(const std::string& time, const CsvRow& row) {
+  return "timestep=\"" + time + "\" group=\"\" part=\"0\" file=\"" + row.at("files") +
+         "/solution.vtu\"";
+}
+
 // The scene of the file is not solved, so that it may be one that is refused.
 TEST_F(Program, IgnoresTheSceneOfTheFileInAStudy) {
   const std::string study =
@@ -305,9 +337,10 @@ TEST_F(Program, IgnoresTheSceneOfTheFileInAStudy) {
   EXPECT_EQ(outcome.text.find("distance 0.8"), std::string::npos) << outcome.text;
   const std::string series = read("study.pvd");
   // Each run has a time of its own.
-  for (const char* const run : {"1\" group=\"\" part=\"0\" file=\"run-001/solution.vtu\"",
-                                "3\" group=\"\" part=\"0\" file=\"run-003/solution.vtu\""})
-    EXPECT_NE(series.find(std::string("timestep=\"") + run), std::string::npos) << series;
+  const auto rows = csv_rows(read("study.csv"));
+  for (unsigned int run = 0; run < rows.size(); ++run)
+    EXPECT_NE(series.find(series_entry(std::to_string(run + 1), rows[run])), std::string::npos)
+        << series;
 }
 
 TEST_F(Program, GivesFieldsTheTimesOfTheKeyThatVaries) {
@@ -318,8 +351,7 @@ TEST_F(Program, GivesFieldsTheTimesOfTheKeyThatVaries) {
                   .exit_code,
               0);
     const std::string series = read("study.pvd");
-    EXPECT_NE(series.find("timestep=\"" + std::string(time_of_second) +
-                          "\" group=\"\" part=\"0\" file=\"run-002/solution.vtu\""),
+    EXPECT_NE(series.find(series_entry(time_of_second, csv_rows(read("study.csv"))[1])),
               std::string::npos)
         << series;
   }

@@ -1,7 +1,7 @@
 // Scenes in which digits could be lost: other units, contact that is no contact, hairline contact.
 #include "manufactured_scene.h"
 #include "rollwave/run/quantities.h"
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 #include "rollwave/verify/reference_solution.h"
 #include "rollwave/verify/true_errors.h"
 #include "test_scenes.h"

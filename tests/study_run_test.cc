@@ -1,8 +1,10 @@
-// Rows of a study: kept, found again, put into tables; orders of its errors.
+// Runs of a study: kept, found again, put into tables; orders of its errors.
 #include "own_path.h"
+#include "rollwave/base/text.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/study/convergence.h"
-#include "rollwave/study/study_csv.h"
+#include "rollwave/study/run_record.h"
+#include "rollwave/study/study_files.h"
 #include "rollwave/study/study_runner.h"
 #include "rollwave/study/study_solver.h"
 #include "rollwave/study/study_table.h"
@@ -10,12 +12,14 @@
 
 #include <deal.II/base/exceptions.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -27,99 +31,77 @@ Study planned(const std::vector<std::string>& assignments) {
   return plan_study(parameters_of(assignments));
 }
 
-/// Texts with what CSV files treat specially, and figures of many digits, one of them not known.
-StudyRun some_run() {
-  StudyRun run;
+/// Texts with what JSON and CSV files treat specially, and figures of many digits, one of them not
+/// known.
+RunRecord some_record() {
+  RunRecord record;
   for (const ResultQuantity& quantity : result_quantities())
-    run.values[quantity.name] = 1. / (3 + run.values.size());
-  run.values.erase("contact.half_width");
-  run.reference = "the semi-analytic solution";
-  run.failure = "no \"way\", at all";
-  run.remarks = {"\"rough\", or so", "ζ"};
-  run.pressure = {{4.5, 0}, {4.6, 0.25}};
-  return run;
+    record.values[quantity.name] = 1. / (3 + record.values.size());
+  record.values.erase("contact.half_width");
+  record.reference = "the semi-analytic solution";
+  record.failure = "no \"way\", at\nall";
+  record.remarks = {"\"rough\", or so", "ζ", "\xff"};
+  record.pressure = {{4.5, 0}, {4.6, 1. / 7}};
+  record.files = {{OutputFile::parameters, OutputFile::surface}, CellKind::linear, {"m", "s", "N"}};
+  record.sizes = {{"surface.vtu", 3000000000}, {"road.vtu", 1}};
+  return record;
 }
 
-TEST(StudyCsv, IsReadAsItWasWritten) {
-  const std::vector<std::string> settings = {
-      "Study/Scenes=fast, thin: Cylinder/Inner radius = 0.9 & Road/Distance = 0.95",
-      "Study/Vary=Road/Contact zone = 4, 5 | 4.5, 5"};
-  Study study = planned(settings);
-  study.runs[1] = some_run();
-  const std::string row = csv_row(study, 1), text = csv_header(study) + row;
-  Study again = planned(settings);
-  read_csv(text, again);
-  read_profiles(profiles_header(study) + profile_rows(study, 1), again);
-  EXPECT_FALSE(again.runs[0]);
-  ASSERT_TRUE(again.runs[1]);
-  EXPECT_EQ(csv_row(again, 1), row);
-  EXPECT_EQ(again.runs[1]->failure, study.runs[1]->failure);
-  EXPECT_EQ(again.runs[1]->remarks, study.runs[1]->remarks);
-  EXPECT_EQ(again.runs[1]->pressure, study.runs[1]->pressure);
-  EXPECT_EQ(again.runs[1]->values, study.runs[1]->values);
+TEST(RunRecord, IsReadAsItWasWritten) {
+  const RunRecord record = some_record();
+  const auto again = from_json(to_json(record, "digest"), "digest");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->values, record.values);
+  EXPECT_EQ(again->reference, record.reference);
+  EXPECT_EQ(again->failure, record.failure);
+  EXPECT_EQ(again->remarks[0], record.remarks[0]);
+  EXPECT_EQ(again->remarks[1], record.remarks[1]);
+  EXPECT_EQ(again->pressure, record.pressure);
+  EXPECT_TRUE(again->files.include(record.files) && record.files.include(again->files));
+  EXPECT_EQ(again->sizes, record.sizes);
 }
 
-// Cut anywhere it has whole runs or none.
-TEST(StudyCsv, IsReadInWholeLines) {
-  const std::vector<std::string> settings = {"Study/Vary=Mesh/Degree = 1 | 2"};
-  Study study = planned(settings);
-  study.runs[0] = study.runs[1] = some_run();
-  const std::string first = csv_header(study) + csv_row(study, 0), text = first + csv_row(study, 1);
-  const Study empty = planned(settings);
-  for (std::size_t size = 0; size + 1 < text.size(); ++size) { // the end of the last line may lack
-    Study again = empty;
-    read_csv(text.substr(0, size), again);
-    ASSERT_EQ(again.runs[0].has_value(), size + 1 >= first.size()) << size;
-    ASSERT_FALSE(again.runs[1]) << size;
+TEST(RunRecord, IsWholeAndOfItsRunOrNone) {
+  const std::string text = to_json(some_record(), "digest");
+  for (std::size_t size = 0; size + 1 < text.size(); ++size) // the end of the last line may lack
+    ASSERT_FALSE(from_json(text.substr(0, size), "digest")) << size;
+  EXPECT_FALSE(from_json(text, "other"));
+  RunRecord failed = some_record();
+  failed.values.clear();
+  EXPECT_FALSE(from_json(to_json(failed, "digest"), "digest"));
+  const std::string force = shortest_text(some_record().values.at("contact.force"));
+  for (const char* const edited : {"abc", "\"0,33375\"", "0.33 N", "nan", "null", "1e999"}) {
+    std::string other = text;
+    other.replace(other.find(force), force.size(), edited);
+    EXPECT_FALSE(from_json(other, "digest")) << edited;
   }
 }
 
-/// The numbers of the runs of a study that are taken over from a table.
-std::vector<unsigned int> taken_over(Study study, const std::string& table) {
-  read_csv(table, study);
-  std::vector<unsigned int> runs;
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run])
-      runs.push_back(run);
-  return runs;
+std::vector<std::string> digests(const std::vector<std::string>& assignments) {
+  std::vector<std::string> all;
+  for (const RunPlan& plan : planned(assignments).plans)
+    all.push_back(plan.digest);
+  return all;
 }
 
-using Runs = std::vector<unsigned int>;
-
-TEST(StudyCsv, RowsAreKnownByTheirParameters) {
-  Study study = planned({"Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8"});
-  std::string table = csv_header(study);
-  for (unsigned int run = 0; run < 4; ++run) {
-    study.runs[run] = some_run();
-    table += csv_row(study, run);
-  }
-  // Other orders, spellings, numbers of keys, names of scenes and of units.
-  EXPECT_EQ(taken_over(planned({"Study/Vary= Road/Distance=8e-1|0.90 ; Mesh/Degree=02|1"}), table),
-            (Runs{0, 1}));
-  EXPECT_EQ(taken_over(planned({"Road/Distance=.7", "Study/Vary=Mesh/Degree=2|3",
-                                "Output/Unit names=m, s, N", "Output/Files=contact"}),
-                       table),
-            (Runs{0}));
-  EXPECT_EQ(taken_over(planned({"Study/Scenes=near: Road/Distance=0.70 & Mesh/Degree=1; "
-                                "near: Road/Distance=0.8 & Mesh/Degree=1; far: Road/Distance=0.9"}),
-                       table),
-            (Runs{0, 1}));
-  // Equal runs share a row, and equal rows count once.
-  EXPECT_EQ(taken_over(planned({"Study/Vary=Road/Distance=0.8|0.80"}), table + table),
-            (Runs{0, 1}));
-  // A part has its own runs only.
-  Study part = study;
-  part.runs.assign(4, std::nullopt);
-  part.part = StudyPart{2, 3};
-  EXPECT_EQ(taken_over(part, table), (Runs{1}));
+TEST(Digest, IsThatOfTheParameters) {
+  const auto all = digests({"Study/Vary=Mesh/Degree = 1 | 2; Road/Distance = 0.7 | 0.8"});
+  EXPECT_EQ(std::set(all.begin(), all.end()).size(), 4u);
+  // Other orders, spellings, numbers of keys, names of scenes and of units, and files.
+  EXPECT_EQ(digests({"Study/Vary= Road/Distance=8e-1|0.70 ; Mesh/Degree=02|1"}),
+            (std::vector<std::string>{all[3], all[1], all[2], all[0]}));
+  EXPECT_EQ(
+      digests({"Road/Distance=.7", "Study/Vary=Mesh/Degree=2", "Output/Unit names=m, s, N",
+               "Output/Files=contact", "Study/Files of each run=contact", "Output/Cells=linear"}),
+      (std::vector<std::string>{all[2]}));
+  EXPECT_EQ(digests({"Study/Scenes=near: Road/Distance=0.7 & Mesh/Degree=1; "
+                     "far: Road/Distance=0.8 & Mesh/Degree=1"}),
+            (std::vector<std::string>{all[0], all[1]}));
 }
 
-TEST(StudyCsv, RowsOfOtherParametersAreNotTakenOver) {
+TEST(Digest, DiffersForOtherParameters) {
   const std::string vary = "Study/Vary=Mesh/Degree = 1 | 2";
-  Study study = planned({vary});
-  study.runs[0] = study.runs[1] = some_run();
-  const std::string table = csv_header(study) + csv_row(study, 0) + csv_row(study, 1);
-  ASSERT_EQ(taken_over(planned({vary}), table).size(), 2u);
+  const auto own = digests({vary});
   const std::vector<std::string> values = {"0.01",  "0.3",    "0.9",   "2",        "3",
                                            "17",    "400000", "none",  "auto",     "true",
                                            "false", "4, 5",   "kelly", "all",      "change",
@@ -131,33 +113,16 @@ TEST(StudyCsv, RowsOfOtherParametersAreNotTakenOver) {
     unsigned int n_others = 0;
     for (const std::string& value : values)
       try {
-        const Study other = planned({vary, key.path() + '=' + value});
+        const auto other = digests({vary, key.path() + '=' + value});
         if (value == key.default_value)
           continue;
-        EXPECT_EQ(taken_over(other, table), Runs()) << key.path() << " = " << value;
+        EXPECT_NE(other[0], own[0]) << key.path() << " = " << value;
+        EXPECT_NE(other[1], own[1]) << key.path() << " = " << value;
         ++n_others;
       } catch (const BadInput&) { // for another key
       }
     EXPECT_GT(n_others, 0u) << key.path();
   }
-}
-
-TEST(StudyCsv, RowsThatCannotBeReadAreNotTakenOver) {
-  const Study empty = planned({"Study/Vary=Mesh/Degree = 1 | 2"});
-  Study study = empty;
-  study.runs[0] = study.runs[1] = some_run();
-  const std::string first = csv_row(study, 0), second = csv_row(study, 1),
-                    force = ',' + shortest_text(study.runs[0]->values.at("contact.force")) + ',';
-  ASSERT_EQ(taken_over(empty, first + second), (Runs{0, 1}));
-  for (const char* const edited :
-       {"abc", "\"0,33375\"", "0.33 N", "nan", "inf", "\"0.3", "1e999"}) {
-    std::string text = first;
-    text.replace(text.find(force) + 1, force.size() - 2, edited);
-    EXPECT_EQ(taken_over(empty, text + second), Runs{1}) << edited;
-    EXPECT_EQ(taken_over(empty, text + first), Runs{0}) << edited;
-  }
-  // After a stop within a row.
-  EXPECT_EQ(taken_over(empty, first.substr(0, first.size() / 2) + '\n' + second), Runs{1});
 }
 
 unsigned int count(const std::string& text, const std::string& part) {
@@ -183,35 +148,34 @@ protected:
     return parameters;
   }
 
-  /// Runs a study, or a part of it, and returns how many rows it has reused.
+  /// Runs a study, or a part of it, and returns how many runs it has reused.
   std::size_t run(const std::vector<std::string>& assignments,
                   const std::optional<StudyPart>& part = {}) const {
     const Parameters all = parameters(assignments);
     std::ostringstream out;
     Study study = plan_study(all, part);
     const unsigned int n_made = run_study(study, all, out);
+    if (!part)
+      write_study(all, study, {});
     return study.n_ended() - n_made;
   }
 
-  /// The study with the rows of study.csv.
-  Study rows(const std::vector<std::string>& assignments) const {
+  /// The study with the runs that are known.
+  Study known(const std::vector<std::string>& assignments) const {
     Study study = plan_study(parameters(assignments));
-    read_csv(read("study.csv"), study);
+    for (unsigned int run = 0; run < study.plans.size(); ++run)
+      study.runs[run] = known_run(directory, study.plans[run].digest, study.files);
     return study;
   }
 
-  std::string read(const std::string& name) const {
+  fs::path record_of(const RunPlan& plan) const {
+    return directory / "runs" / (plan.digest + ".json");
+  }
+
+  std::string read(const fs::path& name) const {
     std::ostringstream text;
     text << std::ifstream(directory / name).rdbuf();
     return text.str();
-  }
-
-  /// Replaces the first place of a text in a file.
-  void replace(const std::string& name, const std::string& before, const std::string& after) const {
-    std::string text = read(name);
-    const auto place = text.find(before);
-    ASSERT_NE(place, std::string::npos) << before;
-    std::ofstream(directory / name) << text.replace(place, before.size(), after);
   }
 
   const fs::path directory = own_path();
@@ -227,23 +191,53 @@ TEST_F(RepeatedStudy, GoesOnWhereItIsTheSame) {
   EXPECT_EQ(run({"Study/Vary=Mesh/Degree=3|4|02", "Cylinder/Angular velocity=0.40"}), 2u);
 }
 
-// The rows of degree 2 are in all tables in the end, and those of other studies in none.
-TEST_F(RepeatedStudy, HasItsOwnRowsInItsOrder) {
-  run({"Study/Vary=Mesh/Degree = 4 | 2"});
-  const std::string of_others = read("study.csv"), profiles_of_others = read("study-profiles.csv");
-  run({"Study/Vary=Mesh/Degree = 1 | 2 | 3"});
+// Degree 2 is in both studies.
+TEST_F(RepeatedStudy, HasItsOwnTables) {
+  const std::vector<std::string> other = {"Study/Vary=Mesh/Degree = 4 | 2"};
+  run(other);
+  const std::string of_other = read("study.csv"), profiles_of_other = read("study-profiles.csv");
+  EXPECT_EQ(run({own_meshes}), 1u);
   const std::string table = read("study.csv"), profiles = read("study-profiles.csv");
-  // As after a stop, with the rows of another study and those of a copy.
-  std::ofstream(directory / "study.csv") << of_others << table << table.substr(0, table.size() / 2);
-  std::ofstream(directory / "study-profiles.csv") << profiles_of_others << profiles << profiles;
-  EXPECT_EQ(run({"Study/Vary=Mesh/Degree = 1 | 2 | 3"}), 3u);
+  EXPECT_EQ(count(table, "\n"), 4u);
+  // Tables are never read.
+  for (const char* const name : {"study.csv", "study-profiles.csv"})
+    std::ofstream(directory / name) << "Mesh/Degree,solved\n1,0\n";
+  EXPECT_EQ(run({own_meshes}), 3u);
   EXPECT_EQ(read("study.csv"), table);
   EXPECT_EQ(read("study-profiles.csv"), profiles);
+  EXPECT_EQ(run(other), 2u);
+  EXPECT_EQ(read("study.csv"), of_other);
+  EXPECT_EQ(read("study-profiles.csv"), profiles_of_other);
+}
+
+TEST_F(RepeatedStudy, MayBeMoved) {
+  run({own_meshes, "Study/Files of each run=contact"});
+  const std::string table = read("study.csv");
+  const fs::path other = directory.string() + "_moved";
+  fs::remove_all(other);
+  fs::rename(directory, other);
+  fs::create_directory(directory);
+  fs::rename(other / "runs", directory / "runs"); // the records alone are enough
+  EXPECT_EQ(run({own_meshes, "Study/Files of each run=contact"}), 3u);
+  EXPECT_EQ(read("study.csv"), table);
+  fs::remove_all(other);
+}
+
+TEST_F(RepeatedStudy, MakesRunsWithoutAWholeRecordAgain) {
+  run({own_meshes});
+  const auto plans = plan_study(parameters({own_meshes})).plans;
+  const std::string second = read("runs/" + plans[1].digest + ".json");
+  for (const std::string& text : {second.substr(0, second.size() / 2), std::string(), second}) {
+    std::ofstream(record_of(plans[0])) << text; // cut, emptied, of another digest
+    EXPECT_EQ(run({own_meshes}), 2u);
+    EXPECT_EQ(known({own_meshes}).value(0, "mesh.degree"), 1);
+  }
+  EXPECT_EQ(read("runs/" + plans[1].digest + ".json"), second);
 }
 
 TEST_F(RepeatedStudy, MakesEqualRunsOnce) {
   EXPECT_EQ(run({"Study/Vary=Road/Distance = 0.8 | 0.9 | 0.80"}), 1u);
-  const Study study = rows({"Study/Vary=Road/Distance = 0.8 | 0.9 | 0.80"});
+  const Study study = known({"Study/Vary=Road/Distance = 0.8 | 0.9 | 0.80"});
   EXPECT_EQ(study.runs[0]->values, study.runs[2]->values);
 }
 
@@ -251,71 +245,69 @@ TEST_F(RepeatedStudy, IsThatOfItsParts) {
   const std::vector<std::string> study = {
       "Study/Vary=Road/Distance = 0.7 | 0.8; Cylinder/Angular velocity = 0 | 0.5 | 1"};
   run(study);
-  const Study whole = rows(study);
+  const Study whole = known(study);
   fs::remove_all(directory);
   fs::create_directory(directory);
   EXPECT_EQ(run(study, StudyPart{2, 4}), 0u);
-  EXPECT_EQ(count(read("study.part-2-of-4.csv"), "\n"), 3u); // runs 2 and 6
+  EXPECT_EQ(known(study).n_ended(), 2u); // runs 2 and 6
   EXPECT_EQ(run(study, StudyPart{2, 4}), 2u);
   EXPECT_EQ(run(study, StudyPart{1, 4}), 0u);
   EXPECT_EQ(run(study, StudyPart{1, 1}), 4u); // by parts in other numbers
+  EXPECT_EQ(run(study, StudyPart{7, 7}), 0u); // which has no runs
   EXPECT_FALSE(fs::exists(directory / "study.csv"));
   EXPECT_EQ(run(study), 6u);
-  const Study joined = rows(study);
+  const Study joined = known(study);
   for (unsigned int i = 0; i < 6; ++i) {
     EXPECT_NEAR(*joined.value(i, "contact.force"), *whole.value(i, "contact.force"), 1e-10);
     EXPECT_GT(count(read("study-profiles.csv"), joined.plans[i].digest), 5u);
   }
-  EXPECT_THROW(run(study, StudyPart{1, 7}), BadInput);
 }
 
-// The table may be removed while the study runs.
-TEST_F(RepeatedStudy, HasAHeaderAlways) {
-  const Parameters all = parameters({own_meshes});
-  std::ostringstream out;
-  Study study = plan_study(all);
-  std::ofstream(directory / "study.csv"); // empty
-  run_study(study, all, out);
-  EXPECT_EQ(read("study.csv").find(csv_header(study)), 0u);
-}
-
-TEST_F(RepeatedStudy, MakesRunsThatAreNotSolvedAgain) {
-  run({own_meshes});
-  const std::string profiles = read("study-profiles.csv");
-  replace("study.csv", "\n2,1,", "\n2,0,");
-  EXPECT_EQ(run({own_meshes}), 2u);
-  const std::string table = read("study.csv");
-  EXPECT_LT(table.find("\n1,1,"), table.find("\n2,1,"));
-  EXPECT_LT(table.find("\n2,1,"), table.find("\n3,1,"));
-  EXPECT_EQ(read("study-profiles.csv"), profiles);
-  // After a stop within the last row the others are kept to the last digit, seconds included.
-  const std::string kept = table.substr(0, table.find("\n3,1,"));
-  std::ofstream(directory / "study.csv") << kept << "\n3,1,0.";
-  EXPECT_EQ(run({own_meshes}), 2u);
-  EXPECT_EQ(read("study.csv").find(kept), 0u);
-  EXPECT_EQ(count(read("study.csv"), "\n"), 4u);
-}
-
-TEST_F(RepeatedStudy, WritesFilesOfEachRun) {
-  const std::string files = "Study/Files of each run=contact, solution";
+TEST_F(RepeatedStudy, MakesRunsAgainThatLackFiles) {
   const std::string vary = "Study/Vary=Road/Distance = 0.9 | 0.7";
+  const std::vector<std::string> study = {"Study/Files of each run=contact, solution", vary};
   run({vary});
-  EXPECT_EQ(run({files, vary}), 0u);
-  EXPECT_TRUE(fs::exists(directory / "run-001" / "solution.vtu"));
-  EXPECT_GT(read("run-002/contact.csv").size(), 100u);
-  EXPECT_NE(read("study.csv").find(",run-002,"), std::string::npos);
-  EXPECT_EQ(run({files, vary}), 2u);
-  // Runs are made again if their files are not there, or those of other runs.
-  fs::remove_all(directory / "run-002");
-  EXPECT_EQ(run({files, vary}), 1u);
-  EXPECT_TRUE(fs::exists(directory / "run-002" / "solution.vtu"));
-  EXPECT_EQ(run({"Study/Files of each run=contact", vary}), 0u);
-  EXPECT_EQ(run({"Study/Files of each run=contact", vary, "Output/Unit names=m, s, N"}), 0u);
-  EXPECT_EQ(run({"Study/Files of each run=contact", "Study/Vary=Road/Distance=0.7"}), 0u);
-  EXPECT_EQ(read_parameters(read_settings(directory / "run-001" / "parameters.prm")).road.distance,
-            0.7);
-  std::ofstream(directory / "run-001" / "parameters.prm") << "# mine\n";
-  EXPECT_THROW(run({"Study/Files of each run=contact", vary}), BadValue);
+  EXPECT_EQ(run(study), 0u);
+  EXPECT_EQ(run(study), 2u);
+  const Study own = known(study);
+  const fs::path files = directory / directory_of_run(own.plans[1].digest);
+  EXPECT_EQ(read_parameters(read_settings(files / "parameters.prm")).road.distance, 0.7);
+  EXPECT_EQ(count(read("study.csv"), directory_of_run(own.plans[1].digest).string()), 1u);
+  fs::remove(files / "solution.vtu");
+  EXPECT_EQ(run(study), 1u);
+  EXPECT_TRUE(fs::exists(files / "solution.vtu"));
+  std::ofstream(files / "contact.csv").close();
+  EXPECT_EQ(run(study), 1u);
+  EXPECT_GT(fs::file_size(files / "contact.csv"), 100u);
+  // Other cells and names of units make other files.
+  for (const char* const other : {"Output/Cells=linear", "Output/Unit names=m, s, N"}) {
+    EXPECT_EQ(run({study[0], study[1], other}), 0u);
+    EXPECT_EQ(run({study[0], study[1], other}), 2u);
+    EXPECT_EQ(run(study), 0u);
+  }
+  EXPECT_EQ(run({vary, "Output/Unit names=m, s, N"}), 2u);
+  EXPECT_EQ(read("study.csv").find("runs/"), std::string::npos); // without files
+}
+
+// In one directory, with a run in common.
+TEST_F(RepeatedStudy, HasTheFilesOfItsRunsNextToThoseOfAnother) {
+  const std::vector<std::string> one = {"Study/Files of each run=summary, solution",
+                                        "Study/Vary=Road/Distance = 0.7 | 0.8"},
+                                 other = {"Study/Files of each run=contact",
+                                          "Study/Vary=Road/Distance = 0.8 | 0.9"};
+  EXPECT_EQ(run(one, StudyPart{1, 2}), 0u);
+  EXPECT_EQ(run(one, StudyPart{2, 2}), 0u);
+  EXPECT_EQ(run(one), 2u);
+  const std::string table = read("study.csv"), series = read("study.pvd");
+  EXPECT_EQ(run(other), 0u); // the common run lacks contact.csv
+  EXPECT_EQ(run(other), 2u);
+  EXPECT_EQ(run(one), 2u);
+  EXPECT_EQ(read("study.pvd"), series);
+  const Study study = known(one);
+  for (unsigned int i = 0; i < 2; ++i)
+    EXPECT_EQ(nlohmann::json::parse(read(directory_of_run(study.plans[i].digest) /
+                                         "summary.json"))["scene"]["road_distance"],
+              i == 0 ? 0.7 : 0.8);
 }
 
 // One failing run is a row, whatever has failed, and the others are made.
@@ -331,7 +323,7 @@ TEST_F(RepeatedStudy, GoesOnAfterAnExceptionOfALibrary) {
     };
     StudySolver solver(study.plans, all, directory, progress, MPI_COMM_SELF);
     for (unsigned int run = 0; run < 3; ++run) {
-      const StudyRun made = solver.solve(run);
+      const RunRecord made = solver.solve(run, {});
       EXPECT_EQ(made.is_solved(), run != 1) << made.failure;
       EXPECT_EQ(made.failure.find("broken") != std::string::npos, run == 1) << made.failure;
     }
@@ -341,16 +333,22 @@ TEST_F(RepeatedStudy, GoesOnAfterAnExceptionOfALibrary) {
 TEST_F(RepeatedStudy, NeverWritesOverTheFileItReads) {
   const std::vector<std::string> study = {"Study/Files of each run=contact", own_meshes};
   run(study);
-  const std::string before = read("run-001/parameters.prm"), other = read("run-002/parameters.prm");
+  const auto plans = plan_study(parameters(study)).plans;
+  const auto path_of = [&](unsigned int run) {
+    return directory_of_run(plans[run].digest) / "parameters.prm";
+  };
+  for (const unsigned int run : {0, 1}) {
+    std::ofstream(directory / path_of(run)) << "# mine\n";
+    fs::remove(record_of(plans[run]));
+  }
   Parameters all = parameters(study);
-  all.file = directory / "run-001" / "parameters.prm";
-  all.cylinder.angular_velocity = 0.4;
-  all.settings.push_back({"Cylinder", "Angular velocity", "0.4", "test"});
+  all.file = directory / path_of(0);
   std::ostringstream out;
   Study again = plan_study(all);
-  EXPECT_EQ(run_study(again, all, out), 3u);
-  EXPECT_EQ(read("run-001/parameters.prm"), before);
-  EXPECT_NE(read("run-002/parameters.prm"), other);
+  EXPECT_EQ(run_study(again, all, out), 2u);
+  EXPECT_EQ(read(path_of(0)), "# mine\n");
+  EXPECT_NE(read(path_of(1)), "# mine\n");
+  EXPECT_EQ(run(study), 3u);
 }
 
 // With true errors every run is timed in full; without, its row says what it does not count.
@@ -358,12 +356,12 @@ TEST_F(RepeatedStudy, SaysWhatIsShared) {
   const std::vector<std::string> settings = {"Study/Vary=Road/Distance = 0.9 | 0.8"};
   const std::vector<std::string> timed = {settings[0], "Study/True errors=true"};
   run(timed);
-  for (const auto& row : rows(timed).runs) {
+  for (const auto& row : known(timed).runs) {
     EXPECT_TRUE(row->shared.empty());
     EXPECT_TRUE(row->values.count("seconds.factorisation") > 0);
   }
   run(settings);
-  const Study study = rows(settings);
+  const Study study = known(settings);
   EXPECT_EQ(study.runs[0]->shared, "");
   EXPECT_EQ(study.runs[1]->shared, "mesh and matrices");
   EXPECT_EQ(study.runs[1]->values.count("seconds.factorisation"), 0u);
@@ -374,7 +372,7 @@ TEST_F(RepeatedStudy, HasTheErrorOfTheDistanceForALoad) {
   const std::vector<std::string> settings = {"Road/Load=0.3", "Study/True errors=true",
                                              "Study/Vary=Mesh/Degree = 2"};
   run(settings);
-  const double error = rows(settings).value(0, "error.exact_distance").value();
+  const double error = known(settings).value(0, "error.exact_distance").value();
   EXPECT_GT(error, 0);
   EXPECT_LT(error, 1e-2);
 }
@@ -385,7 +383,7 @@ TEST_F(RepeatedStudy, HasTheErrorsThatTheReferenceResolves) {
                                              "Study/True errors=true",
                                              "Study/Vary=Mesh/Degree = 1 | 8"}; // without contact
   run(settings);
-  const Study study = rows(settings);
+  const Study study = known(settings);
   EXPECT_GT(study.value(0, "error.exact_relative").value_or(0), 1e-3);
   EXPECT_FALSE(study.value(1, "error.exact_relative"));
   EXPECT_LT(study.value(1, "error.exact_energy").value_or(1), 1e-9);
@@ -396,7 +394,7 @@ TEST_F(RepeatedStudy, HasTheErrorsThatTheReferenceResolves) {
 TEST(StudyTable, IsReadByLatex) {
   Study study = planned({"Study/Scenes=a\\q_1 {50 % & $x^2~}: Road/Distance=0.7; b: Mesh/Degree=1",
                          "Study/Vary=Cylinder/Radial force = \"r > 0.7 || z < 4\""});
-  study.runs[0] = study.runs[1] = some_run();
+  study.runs[0] = study.runs[1] = some_record();
   const std::string tex = table_as_tex(study);
   for (const char* const part : {"a\\textbackslash{}q\\_1 \\{50 \\% \\& \\$x\\^{}2\\~{}\\}",
                                  "r > 0.7 || z < 4", "\\usepackage[T1]{fontenc}"})

@@ -111,7 +111,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
     const RunPlan& plan = study.plans[run];
     SCOPED_TRACE(label(plan, plan.varied));
-    const StudyRun& row = *study.runs[run];
+    const RunRecord& row = *study.runs[run];
     ASSERT_TRUE(row.is_solved()) << row.failure;
     const Scene scene = make_scene(plan.parameters);
     const Result result = simulate(scene, plan.parameters).result;

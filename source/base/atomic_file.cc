@@ -22,11 +22,13 @@ namespace {
 
 AtomicFile::AtomicFile(const fs::path& path) : path(path), temporary(path) {
   temporary += "." + std::to_string(std::random_device()()) + ".part";
-  // The directory may have been removed during a long computation.
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  errno = 0;
   out.open(temporary, std::ios::binary);
+  if (!out) { // perhaps the directory is not there, or was removed during a long computation
+    std::error_code ignored;
+    fs::create_directories(path.parent_path(), ignored);
+    errno = 0;
+    out.open(temporary, std::ios::binary);
+  }
   if (!out)
     fail(path, errno);
 }
@@ -34,7 +36,8 @@ AtomicFile::AtomicFile(const fs::path& path) : path(path), temporary(path) {
 AtomicFile::~AtomicFile() {
   out.close();
   std::error_code ignored;
-  fs::remove(temporary, ignored);
+  if (!is_in_place)
+    fs::remove(temporary, ignored);
 }
 
 unsigned long AtomicFile::commit() {
@@ -47,6 +50,7 @@ unsigned long AtomicFile::commit() {
     fs::rename(temporary, path, error);
   if (error)
     fail(path, error.value());
+  is_in_place = true;
   return size;
 }
 
@@ -60,15 +64,6 @@ unsigned long write_file(const fs::path& path, const std::string& content) {
   AtomicFile file(path);
   file.stream() << content;
   return file.commit();
-}
-
-void append_to_file(const fs::path& path, const std::string& text) {
-  errno = 0;
-  std::ofstream out(path, std::ios::binary | std::ios::app);
-  out << text;
-  out.close();
-  if (!out)
-    fail(path, errno);
 }
 
 } // namespace rollwave

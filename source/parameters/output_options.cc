@@ -12,6 +12,11 @@ namespace rollwave {
 
 namespace {
 
+const std::map<OutputFile, std::string> kind_names = {
+    {OutputFile::summary, "summary"},       {OutputFile::contact, "contact"},
+    {OutputFile::parameters, "parameters"}, {OutputFile::solution, "solution"},
+    {OutputFile::surface, "surface"},       {OutputFile::plot, "plot"}};
+
 /// Names without letters that a shell, gnuplot, XML or JSON give a meaning to.
 UnitNames parse_unit_names(const std::string& text) {
   const auto names = split(text, ',');
@@ -30,18 +35,22 @@ UnitNames parse_unit_names(const std::string& text) {
 } // namespace
 
 std::set<OutputFile> parse_files(const std::string& text) {
-  const std::map<std::string, OutputFile> kinds = {
-      {"summary", OutputFile::summary},   {"contact", OutputFile::contact},
-      {"solution", OutputFile::solution}, {"surface", OutputFile::surface},
-      {"plot", OutputFile::plot},         {"parameters", OutputFile::parameters}};
   std::set<OutputFile> files = {OutputFile::parameters};
   for (const std::string& name : split(text, ',')) {
-    const auto kind = kinds.find(name);
-    if (kind == kinds.end())
+    const auto kind = std::find_if(kind_names.begin(), kind_names.end(),
+                                   [&](const auto& known) { return known.second == name; });
+    if (kind == kind_names.end())
       throw std::invalid_argument("");
-    files.insert(kind->second);
+    files.insert(kind->first);
   }
   return files;
+}
+
+std::string text_of(const std::set<OutputFile>& files) {
+  std::string text;
+  for (const OutputFile kind : files)
+    text += (text.empty() ? "" : ", ") + kind_names.at(kind);
+  return text;
 }
 
 void declare_output(Section<OutputOptions> keys) {

@@ -197,9 +197,9 @@ void declare_study(Section<StudyOptions> keys) {
         const std::string& text = setting.value;
         p.study.files_of_each_run = text.empty() ? std::set<OutputFile>() : parse_files(text);
       },
-      "Files to write for each run of a study, any of those of Output/Files, into run-001, "
-      "run-002 and so on in the directory of the study. With solution, study.pvd is the series of "
-      "all fields for ParaView.");
+      "Files to write for each run of a study, any of those of Output/Files, into a directory of "
+      "the run, which study.csv names in the column files. With solution, study.pvd is the series "
+      "of all fields for ParaView.");
 }
 
 } // namespace rollwave

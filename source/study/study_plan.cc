@@ -7,7 +7,6 @@
 #include "rollwave/scene/units.h"
 
 #include <boost/algorithm/string/erase.hpp>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
@@ -58,24 +57,19 @@ std::vector<Setting> shared_settings(const Parameters& study,
   return shared;
 }
 
-/// See RunPlan::digest. @param run its parameters @param number of the run, from 0 on
-std::string digest_of(const Parameters& study, const Parameters& run, unsigned int number) {
+/// See RunPlan::digest. @param run its parameters
+std::string digest_of(const Parameters& study, const Parameters& run) {
   std::map<std::string, std::string> values;
   for (const Setting& setting : run.settings)
     values[setting.path()] = setting.value; // the last one holds
-  const bool has_files = !study.study.files_of_each_run.empty();
   std::string text = study.study.true_errors ? "with true errors\n" : "\n";
   for (const Key& key : all_keys())
-    if (key.section != "Study" && (key.section != "Output" || has_files)) {
+    if (key.section != "Study" && key.section != "Output") {
       const auto value = values.find(key.path());
       text += (value != values.end() ? value->second : key.default_value) + '\n';
     }
   boost::algorithm::erase_all(text, " "); // which expressions may have anywhere
-  if (has_files)
-    text += directory_of_run(number) + '\n';
-  for (const OutputFile kind : study.study.files_of_each_run)
-    text += std::to_string(static_cast<int>(kind)) + '\n';
-  return digest_with_build(text);
+  return digest_with_program(text);
 }
 
 /// Refuses a varied key that belongs to Uzawa's method where no run uses that.
@@ -112,8 +106,7 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
       } catch (const BadValue& value) {
         throw BadInput(refusal(run.settings, value));
       }
-      plans.push_back(
-          {scene.name, scene.settings, varied, {}, run, digest_of(parameters, run, plans.size())});
+      plans.push_back({scene.name, scene.settings, varied, {}, run, digest_of(parameters, run)});
     }
   }
   check_method(plans);
@@ -131,10 +124,6 @@ std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& pla
   std::vector<Setting> settings = shared_settings(study, plan.scene_settings);
   settings.insert(settings.end(), plan.varied.begin(), plan.varied.end());
   return settings;
-}
-
-std::string directory_of_run(unsigned int number) {
-  return "run-" + dealii::Utilities::int_to_string(number + 1, 3);
 }
 
 std::string axis_label(const Setting& setting, const Units& units) {

@@ -61,11 +61,10 @@ StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& st
     : plans(plans), study(study), directory(directory), progress(progress),
       communicator(communicator) {}
 
-StudyRun StudySolver::solve(unsigned int number) {
+RunRecord StudySolver::solve(unsigned int number, const OwnFiles& files) {
   const RunPlan& plan = plans[number];
-  StudyRun run;
-  if (!study.study.files_of_each_run.empty())
-    run.files = directory_of_run(number);
+  RunRecord run;
+  run.files = files;
   try {
     solve(number, run);
   } catch (const Interrupted&) {
@@ -84,8 +83,6 @@ StudyRun StudySolver::solve(unsigned int number) {
     const bool is_short = dynamic_cast<const std::bad_alloc*>(&failure);
     run.failure = is_short ? NotEnoughMemory().what() : reason_of(failure);
   }
-  if (!run.is_solved())
-    run.files.clear();
   return run;
 }
 
@@ -125,7 +122,7 @@ std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
 }
 
 /// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
-Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
+Solution StudySolver::solve_shared(unsigned int number, RunRecord& run) {
   const RunOptions& parameters = plans[number].parameters;
   const Scene scene = make_scene(parameters);
   const auto is_shared_with_last = [&](const auto& have_same) {
@@ -161,7 +158,7 @@ Solution StudySolver::solve_shared(unsigned int number, StudyRun& run) {
   return result;
 }
 
-void StudySolver::solve(unsigned int number, StudyRun& run) {
+void StudySolver::solve(unsigned int number, RunRecord& run) {
   const RunPlan& plan = plans[number];
   solution.emplace(study.study.true_errors ? solve_timed(plan.parameters)
                                            : solve_shared(number, run));
@@ -183,26 +180,28 @@ void StudySolver::solve(unsigned int number, StudyRun& run) {
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
-  if (!run.files.empty())
-    run.remarks =
-        write_results(directory / run.files, parameters_of_files(plan, run.files), *solution)
-            .remarks;
+  run.remarks = texts_of(result.notes, Note::Kind::remark);
+  if (!run.files.kinds.empty())
+    write_files(plan, run);
   run.values = values_of(result, scene.units);
   run.pressure = pressure_of(result, scene.units);
   run.failure = shortfall_text(result);
-  const auto remarks = texts_of(result.notes, Note::Kind::remark);
-  run.remarks.insert(run.remarks.begin(), remarks.begin(), remarks.end());
 }
 
-/// Those of a run that writes its own files.
-Parameters StudySolver::parameters_of_files(const RunPlan& plan, const std::string& files) const {
+/// Writes the files of the run that was solved last, and puts their sizes and remarks into its
+/// record.
+void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
+  const auto own_directory = directory / directory_of_run(plan.digest);
   std::vector<Setting> settings = settings_of_run(study, plan);
   const Setting& kinds = *last_of(study.settings, "Study/Files of each run");
-  settings.push_back({"Output", "Files", kinds.value, kinds.origin});
-  settings.push_back({"Output", "Directory", (directory / files).string(), kinds.origin});
+  settings.push_back({"Output", "Files", text_of(run.files.kinds), kinds.origin});
+  settings.push_back({"Output", "Directory", own_directory.string(), kinds.origin});
   Parameters parameters = read_parameters(settings);
   parameters.file = study.file;
-  return parameters;
+  const WrittenFiles written = write_results(own_directory, parameters, *solution);
+  for (const auto& file : written.files)
+    run.sizes[file.filename().string()] = std::filesystem::file_size(file);
+  run.remarks.insert(run.remarks.end(), written.remarks.begin(), written.remarks.end());
 }
 
 } // namespace rollwave

@@ -32,7 +32,7 @@ std::string in_tex(const std::string& text) {
   return escaped;
 }
 
-std::string outcome_of(const StudyRun& run) {
+std::string outcome_of(const RunRecord& run) {
   return run.failure.empty() ? "solved" : run.is_solved() ? "target not reached" : "not solved";
 }
 

@@ -32,6 +32,7 @@ private:
   std::filesystem::path path;
   std::filesystem::path temporary;
   std::ofstream out;
+  bool is_in_place = false;
 };
 
 /// The text of a file; empty where it cannot be read.
@@ -39,8 +40,5 @@ std::string read_file(const std::filesystem::path& path);
 
 /// Writes a file and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
-
-/// Adds @p text at the end of a file. @throws NotWritten; a part of the text may then be there.
-void append_to_file(const std::filesystem::path& path, const std::string& text);
 
 } // namespace rollwave

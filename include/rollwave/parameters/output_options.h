@@ -24,6 +24,9 @@ struct OutputOptions {
 /// The kinds in a list, always with `parameters`. @throws std::invalid_argument for an unknown one
 std::set<OutputFile> parse_files(const std::string& text);
 
+/// The text of a list, as parse_files() reads it.
+std::string text_of(const std::set<OutputFile>& files);
+
 /// The keys of the section.
 void declare_output(Section<OutputOptions> keys);
 

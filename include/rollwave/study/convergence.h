@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 
 #include <iosfwd>
 #include <string>

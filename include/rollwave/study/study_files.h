@@ -1,16 +1,16 @@
 #pragma once
 
 #include "rollwave/output/output_directory.h"
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 
 #include <filesystem>
 #include <vector>
 
 namespace rollwave {
 
-/// Writes, next to the tables of run_study(), study.txt and study.tex (a table for the screen and
-/// for LaTeX), study.pvd (the fields of the runs, if they are written) and the pictures of
-/// draw_study().
+/// Writes the tables of the runs that have ended: study.csv, study-profiles.csv, study.txt and
+/// study.tex (a table for the screen and for LaTeX); study.pvd (the fields of the runs, if they are
+/// written) and the pictures of draw_study().
 /// @param older files that were there before, of which the others are named in a remark
 /// @throws NotWritten
 WrittenFiles write_study(const Parameters& parameters, const Study& study,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "rollwave/base/written_files.h"
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 
 #include <vector>
 

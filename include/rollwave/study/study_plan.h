@@ -17,9 +17,8 @@ struct RunPlan {
   std::optional<unsigned int> published_steps;
   RunOptions parameters; ///< of this run alone
 
-  /// A digest of all that its row and its files depend on: the settings of the run as the program
-  /// holds them, the comparison with the exact answer, and the build of the program. Those of
-  /// section Output and the number of the run belong to it only if it has files of its own.
+  /// A digest of the parameters of this run as the program holds them, without those of Output; of
+  /// `True errors`, which adds to its results; and of the program, see digest_with_program().
   std::string digest;
 };
 
@@ -31,9 +30,6 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters);
 
 /// All settings of a run of @p study: those that its runs share, of its scene, and the varied ones.
 std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& plan);
-
-/// The directory of a run's own files in that of the study: run-001 for number 0.
-std::string directory_of_run(unsigned int number);
 
 /// The label of an axis: a key with its symbol and unit, such as "distance c [m]".
 std::string axis_label(const Setting& setting, const Units& units);

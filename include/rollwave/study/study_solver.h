@@ -2,7 +2,7 @@
 
 #include "rollwave/exact/exact_solution.h"
 #include "rollwave/run/simulation.h"
-#include "rollwave/study/study_record.h"
+#include "rollwave/study/study.h"
 
 #include <mpi.h>
 
@@ -18,21 +18,23 @@ namespace rollwave {
 /// and its factors at one speed, unless true errors are asked for: then each is timed in full.
 class StudySolver {
 public:
-  /// @param study its parameters, whose files of each run go to directories in @p directory
+  /// @param study its parameters
+  /// @param directory of the study
   /// @param progress of each run
   StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
               const std::filesystem::path& directory, const Progress& progress,
               MPI_Comm communicator);
 
-  /// Solves the run of this number, from 0 on; if that fails the reason is in the outcome.
+  /// Solves the run of this number, from 0 on, and writes its @p files; if that fails the reason is
+  /// in the record. The sizes of files are known to rank 0.
   /// @throws Interrupted even if there is a partial result; NotWritten
-  StudyRun solve(unsigned int number);
+  RunRecord solve(unsigned int number, const OwnFiles& files);
 
 private:
-  void solve(unsigned int number, StudyRun& run);
-  Parameters parameters_of_files(const RunPlan& plan, const std::string& files) const;
+  void solve(unsigned int number, RunRecord& run);
+  void write_files(const RunPlan& plan, RunRecord& run);
   Solution solve_timed(const RunOptions& options);
-  Solution solve_shared(unsigned int number, StudyRun& run);
+  Solution solve_shared(unsigned int number, RunRecord& run);
   std::pair<double, double> widest_zone(unsigned int number) const;
 
   const std::vector<RunPlan>& plans;

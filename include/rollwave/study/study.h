@@ -1,36 +1,20 @@
 #pragma once
 
-#include "rollwave/run/result.h"
 #include "rollwave/scene/units.h"
+#include "rollwave/study/run_record.h"
 #include "rollwave/study/study_plan.h"
 
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// The outcome of one run of a study.
-struct StudyRun {
-  /// The known result_quantities() by their names, in the user's units; none where it was not
-  /// solved.
-  std::map<std::string, double> values;
-  std::string reference; ///< what its errors are measured against; empty if there are none
-  std::string failure;   ///< why it was not solved or did not reach its target; else empty
-  std::vector<std::string> remarks;
-  std::string shared; ///< what it reuses from the run before; its seconds leave that out
-  std::string files;  ///< the directory of its own files; empty without
-  std::vector<std::pair<double, double>> pressure; ///< angles and pressures along the contact
-
-  bool is_solved() const { return !values.empty(); }
-};
-
-/// A study: its runs in their order, nullopt for those that have not ended.
+/// A study: its runs in their order, nullopt for those that are not known and have not failed.
 struct Study {
   std::vector<RunPlan> plans;
-  std::vector<std::optional<StudyRun>> runs;
+  std::vector<std::optional<RunRecord>> runs;
+  OwnFiles files = {};                ///< wanted of each run
   std::optional<StudyPart> part = {}; ///< where a call makes a part of the runs only
 
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
@@ -56,12 +40,5 @@ struct Study {
   /// True if the runs differ in keys of the scene only, not in those of mesh or method.
   bool is_of_scenes() const;
 };
-
-/// The known quantities of a result by their names, in the user's units.
-std::map<std::string, double> values_of(const Result& result, const Units& units);
-
-/// The pressure from the node before contact to that after it, at about a hundred nodes at most,
-/// in the user's units.
-std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units);
 
 } // namespace rollwave

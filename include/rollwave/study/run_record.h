@@ -1,0 +1,74 @@
+#pragma once
+
+#include "rollwave/parameters/output_options.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/run/result.h"
+#include "rollwave/scene/units.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rollwave {
+
+/// The files that a run of a study has of its own, and what they depend on besides the run.
+struct OwnFiles {
+  std::set<OutputFile> kinds; ///< none: no files
+  CellKind cells = CellKind::high_order;
+  UnitNames unit_names;
+
+  /// True if @p wanted are among these.
+  bool include(const OwnFiles& wanted) const;
+};
+
+/// `Study/Files of each run` of a study.
+OwnFiles wanted_files(const Parameters& study);
+
+/// The outcome of one run of a study.
+struct RunRecord {
+  /// The known result_quantities() by their names, in the user's units; none where it was not
+  /// solved.
+  std::map<std::string, double> values;
+  std::string reference; ///< what its errors are measured against; empty if there are none
+  std::string failure;   ///< why it was not solved or did not reach its target; else empty
+  std::vector<std::string> remarks;
+  std::string shared; ///< what it reuses from the run before; its seconds leave that out
+  std::vector<std::pair<double, double>> pressure; ///< angles and pressures along the contact
+  OwnFiles files;
+  std::map<std::string, std::uintmax_t> sizes; ///< of the files in bytes, by their names
+
+  bool is_solved() const { return !values.empty(); }
+};
+
+/// The record of the run with a digest as text, numbers in the shortest form that is read back as
+/// they are.
+std::string to_json(const RunRecord& record, const std::string& digest);
+
+/// nullopt for a text that is not a whole record of a solved run with this digest.
+std::optional<RunRecord> from_json(const std::string& text, const std::string& digest);
+
+/// The directory of a run's own files in that of the study.
+std::filesystem::path directory_of_run(const std::string& digest);
+
+/// The record of the run with a digest in the directory of a study: nullopt if it cannot be read,
+/// or if it does not have the wanted files, with the sizes that it says.
+std::optional<RunRecord> known_run(const std::filesystem::path& directory,
+                                   const std::string& digest, const OwnFiles& wanted);
+
+/// Writes the record of a solved run, whose files are there. @throws NotWritten
+void write_record(const std::filesystem::path& directory, const std::string& digest,
+                  const RunRecord& record);
+
+/// The known quantities of a result by their names, in the user's units.
+std::map<std::string, double> values_of(const Result& result, const Units& units);
+
+/// The pressure from the node before contact to that after it, at about a hundred nodes at most,
+/// in the user's units.
+std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units);
+
+} // namespace rollwave
