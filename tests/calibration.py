@@ -52,7 +52,13 @@ def layer_compliance(k, h, speed=0.):
     return numpy.einsum('ki,ki->k', u_y[0], numpy.linalg.solve(equations, unit_pressure)[..., 0])
 
 
-def layer(load=load, h=cover, curvature=0., speed=0., n=8192):
+def layer(load=load, **arguments):
+    """Nip, indentation, peak pressure and stiffness, a central difference, under a load."""
+    less, more = (pressed_layer(factor * load, **arguments)['indentation'] for factor in (0.95, 1.05))
+    return {**pressed_layer(load, **arguments), 'stiffness': 0.1 * load / (more - less)}
+
+
+def pressed_layer(load, h=cover, curvature=0., speed=0., n=8192):
     """Nip, indentation and peak pressure under a load, by bisection for the half-width, at whose ends the
     pressure is 0. The surface is periodic with its true circumference and has n points."""
     length = 2 * numpy.pi * (core + cover)
@@ -95,7 +101,8 @@ def model(mu, load=load, h=cover, curvature=0., speed=0.):
                        stdout=subprocess.DEVNULL)
         result = json.loads((pathlib.Path(directory) / 'summary.json').read_text())
     return {'nip': result['contact']['length'], 'indentation': result['scene']['deflection'],
-            'peak': result['contact']['peak_pressure']}
+            'peak': result['contact']['peak_pressure'],
+            'stiffness': result['contact']['stiffness']['vertical_load']}
 
 
 def calibrated(name, wanted):
@@ -134,13 +141,13 @@ assert numpy.allclose(layer_compliance(k, cover), layer_compliance(k, cover, 1.)
 
 solid = layer()
 by_nip, by_indentation = (calibrated(name, solid[name]) for name in ('nip', 'indentation'))
-rows = [['(the layer)', f'{handbook:.2f}', *(f'{solid[name]:.3g}' for name in solid), '', '', '']]
+rows = [['(the layer)', f'{handbook:.2f}', *(f'{solid[name]:.3g}' for name in solid), *4 * ['']]]
 for text, mu in (('handbook', handbook), ('the nip', by_nip), ('the indentation', by_indentation)):
     ours = model(mu)
     rows.append([text, f'{mu:.2f}', *(f'{ours[name]:.3g}' for name in solid),
                  *(difference(ours[name], solid[name]) for name in solid)])
-differences = ['nip, difference', 'indentation, difference', 'peak, difference']
-table(['mu by', 'mu', 'nip', 'indentation', 'peak', *differences], rows)
+differences = [f'{name}, difference' for name in solid]
+table(['mu by', 'mu', *solid, *differences], rows)
 print()
 table(['mu by the nip', 'nip of the layer', 'of the model', *differences], compare(
     [(f'load {p:g} N', {'load': p}) for p in (500., 1000., 1500., 2000., 3000.)] +

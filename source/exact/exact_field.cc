@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace rollwave {
 
@@ -38,15 +39,16 @@ std::vector<std::vector<double>> cosine_coefficients(const ExactSolution& soluti
   return coefficients;
 }
 
-double cosine_sum(const std::vector<double>& coefficients, double z) {
+AngularValue cosine_sum(const std::vector<double>& coefficients, double z) {
   const double x = from_lowest_point(z), factor = 2 * std::cos(x);
-  double first = 0, second = 0; // Clenshaw's recurrence
+  // Clenshaw's recurrence for the sum and for sum_k k c_k sin(k x)
+  double first = 0, second = 0, slope_first = 0, slope_second = 0;
   for (std::size_t k = coefficients.size() - 1; k > 0; --k) {
-    const double next = coefficients[k] + factor * first - second;
-    second = first;
-    first = next;
+    second = std::exchange(first, coefficients[k] + factor * first - second);
+    slope_second =
+        std::exchange(slope_first, k * coefficients[k] + factor * slope_first - slope_second);
   }
-  return coefficients[0] + factor / 2 * first - second;
+  return {coefficients[0] + factor / 2 * first - second, -slope_first * std::sin(x)};
 }
 
 } // namespace rollwave

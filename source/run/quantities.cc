@@ -169,6 +169,8 @@ Quantities error_quantities() {
        if_resolved(optional_member(&Result::errors, &TrueErrors::relative_energy_norm))},
       {"error.exact_l2_norm", "true error in L2", "L2 norm", Quantity::area, Shown::orders, 3,
        optional_member(&Result::errors, &TrueErrors::l2_norm)},
+      {"error.exact_h1_norm", "true error in the H1 norm", "H1 norm", Quantity::length,
+       Shown::orders, 3, if_resolved(optional_member(&Result::errors, &TrueErrors::h1_norm))},
       {"error.exact_pressure", "true error of the pressure in the discrete L2 norm", "pressure",
        Quantity::pressure_norm, Shown::orders, 3,
        optional_member(&Result::errors, &TrueErrors::pressure)},

@@ -14,7 +14,10 @@ std::vector<std::vector<double>> cosine_coefficients(const ExactSolution& soluti
                                                      unsigned int n_modes,
                                                      const std::vector<double>& radii);
 
-/// sum_k c_k cos(k (z - 3 pi/2))
-double cosine_sum(const std::vector<double>& coefficients, double z);
+/// u = sum_k c_k cos(k (z - 3 pi/2)) and its derivative by z.
+struct AngularValue {
+  double value, slope;
+};
+AngularValue cosine_sum(const std::vector<double>& coefficients, double z);
 
 } // namespace rollwave

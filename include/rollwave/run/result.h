@@ -54,10 +54,13 @@ struct Residuals {
 
 /// Errors against the exact solution.
 struct TrueErrors {
-  double energy_norm;                   ///< sqrt(a(u - u_h, u - u_h))
-  double relative_energy_norm;          ///< over that of u
-  bool is_resolved;                     ///< true if the exact solution is accurate enough for it
-  double l2_norm;                       ///< (int r (u - u_h)^2 dr dz)^(1/2)
+  double energy_norm;          ///< sqrt(a(u - u_h, u - u_h))
+  double relative_energy_norm; ///< over that of u
+  bool is_resolved;            ///< true if the exact solution is accurate enough for it
+  double l2_norm;              ///< (int r (u - u_h)^2 dr dz)^(1/2)
+  /// (int r (e^2/b^2 + e_r^2 + e_z^2/r^2) dr dz)^(1/2) of e = u - u_h; not at the critical speed,
+  /// where the energy does not bound it.
+  std::optional<double> h1_norm;
   double pressure;                      ///< |lambda - lambda_h| in the norm of [.,.]_h
   double force;                         ///< |F - F_h|
   double energy;                        ///< |J(u) - J(u_h)|

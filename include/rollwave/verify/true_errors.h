@@ -17,7 +17,10 @@ namespace rollwave {
  * then a(u - v, u - v) is clearly more than 2 (J(v) - J(u)). The pressures are compared at the
  * nodes by the rule [.,.]_h, without nodes at which the exact one is singular.
  *
- * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points.
+ * The L2 norm is taken by Gauss' rule, u being summed up from its modes at the points. So is the
+ * part of the H^1 norm that the energy norm lacks: since 1/r^2 = alpha + omega^2,
+ *
+ *     int r (e_r^2 + e_z^2/r^2) dr dz = a(e, e) + omega^2 int r e_z^2 dr dz.
  *
  * @p exact must be that of the scene that @p solution solves.
  */
