@@ -118,7 +118,10 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       study = plan_study(parameters, line.part);
     else
       scene = make_scene(parameters);
-    const auto older = prepare_directory(parameters, is_study, communicator);
+    const auto older = prepare_directory(parameters,
+                                         is_study ? study_file_names(parameters)
+                                                  : result_file_names(parameters.output.files),
+                                         communicator);
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))

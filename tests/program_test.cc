@@ -92,23 +92,52 @@ TEST_F(Program, NamesFilesOfEarlierRuns) {
 }
 
 TEST_F(Program, RefusesToWriteOverFilesOfOthers) {
-  for (const auto& [name, of_scene, of_study] :
-       {std::tuple("parameters.prm", 1, 1), {"summary.json", 1, 0}, {"notes.txt", 0, 0}}) {
-    fs::remove_all(directory / "out");
-    fs::create_directories(directory / "out");
-    for (const char* const text : {"{ \"mine\": 1 }\n", ""}) {
+  for (const auto& [name, of_scene, of_study] : {std::tuple("parameters.prm", 1, 1),
+                                                 {"summary.json", 1, 0},
+                                                 {"contact.csv", 1, 0},
+                                                 {"scene.gp", 1, 0},
+                                                 {"study.csv", 0, 1},
+                                                 {"study-h.svg", 0, 1},
+                                                 {"notes.txt", 0, 0}}) {
+    for (const std::string& text : {std::string("{ \"mine\": 1 }\n"), std::string()}) {
+      fs::remove_all(directory / "out");
+      fs::create_directories(directory / "out");
       std::ofstream(directory / "out" / name) << text;
-      const Outcome single = shell("$rollwave " + scene),
-                    study = shell("$rollwave " + scene + " --set 'Study/Vary=Mesh/Degree = 1'");
-      EXPECT_EQ(single.exit_code, of_scene) << single.text;
-      EXPECT_EQ(study.exit_code, of_study) << study.text;
-      if (of_scene == 1) {
-        EXPECT_NE(single.text.find(name), std::string::npos) << single.text;
-        EXPECT_FALSE(has("contact.csv"));
+      for (const auto& [option, code] :
+           {std::pair("", of_scene), {" --set 'Study/Vary=Mesh/Degree = 1'", of_study}}) {
+        const Outcome outcome = shell("$rollwave " + scene + option);
+        EXPECT_EQ(outcome.exit_code, code) << name << option << outcome.text;
         EXPECT_EQ(read(name), text);
+        if (code == 0)
+          break; // parameters.prm makes the directory one of Rollwave
+        EXPECT_NE(outcome.text.find(name), std::string::npos) << outcome.text;
+        EXPECT_NE(outcome.text.find("--output"), std::string::npos) << outcome.text;
+        EXPECT_FALSE(has("solution.vtu"));
       }
     }
   }
+  // A link counts as a file, also without a target.
+  fs::remove_all(directory / "out");
+  fs::create_directories(directory / "out");
+  fs::create_symlink(directory / "no-target", directory / "out" / "contact.csv");
+  EXPECT_EQ(shell("$rollwave " + scene).exit_code, 1);
+}
+
+// Whatever its name is, and through a link.
+TEST_F(Program, RefusesToWriteOverTheFileItReads) {
+  ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0);
+  const std::string text = read("parameters.prm");
+  for (const char* const name : {"contact.csv", "surface.vtu"}) {
+    const fs::path file = directory / "out" / name;
+    std::ofstream(file) << text;
+    fs::create_symlink(file, directory / name);
+    for (const fs::path& input : {file, directory / name})
+      EXPECT_EQ(shell("$rollwave '" + input.string() + "'").exit_code, 1) << input;
+    EXPECT_EQ(read(name), text);
+    ASSERT_EQ(shell("$rollwave " + scene).exit_code, 0); // which may write it
+  }
+  EXPECT_EQ(shell("$rollwave '" + (directory / "out" / "parameters.prm").string() + "'").exit_code,
+            0);
 }
 
 TEST_F(Program, MakesAStudyInParts) {

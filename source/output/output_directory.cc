@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <sstream>
 #include <system_error>
-#include <tuple>
 #include <unistd.h>
 
 namespace rollwave {
@@ -24,6 +23,29 @@ constexpr const char* first_words = "# All parameters of a run of ";
 bool is_input(const Parameters& parameters, const fs::path& path) {
   std::error_code ignored; // where one of them is not there, they differ
   return fs::equivalent(parameters.file, path, ignored);
+}
+
+bool has_own_parameters(const fs::path& directory) {
+  return read_file(directory / "parameters.prm").rfind(first_words, 0) == 0;
+}
+
+/// @throws BadValue if a file of one of these names may not be written in the directory
+void check_names(const fs::path& directory, const Parameters& parameters,
+                 const std::vector<std::string>& names) {
+  const bool is_own = has_own_parameters(directory);
+  for (const std::string& name : names) {
+    const fs::path path = directory / name;
+    const bool is_read = is_input(parameters, path),
+               is_there = fs::exists(fs::symlink_status(path)), // a link without a target as well
+        is_left = is_read && name == "parameters.prm";
+    if (is_there && !is_left && (is_read || !is_own))
+      throw BadValue("Output", "Directory",
+                     path.string() +
+                         (is_read ? " is the parameter file that is read"
+                                  : " may not be a file of Rollwave: there is no parameters.prm of "
+                                    "an earlier run next to it") +
+                         "; choose another directory by --output, or move the file");
+  }
 }
 
 } // namespace
@@ -41,20 +63,8 @@ void write_parameters(const fs::path& directory, const Parameters& parameters,
   written.write(path, text.str());
 }
 
-void check_own_files(const fs::path& directory, const Parameters& parameters,
-                     const std::set<OutputFile>& kinds) {
-  for (const auto& [kind, name, start] :
-       {std::tuple(OutputFile::parameters, "parameters.prm", first_words),
-        {OutputFile::summary, "summary.json", "{\n  \"program\": \"Rollwave "}})
-    if (const fs::path file = directory / name;
-        kinds.count(kind) > 0 && fs::exists(file) && read_file(file).rfind(start, 0) != 0 &&
-        !(kind == OutputFile::parameters && is_input(parameters, file)))
-      throw BadValue("Output", "Directory",
-                     file.string() + " is not a file of Rollwave, and would be overwritten; choose "
-                                     "another directory, or move the file");
-}
-
-std::vector<fs::path> prepare_directory(const Parameters& parameters, bool is_study,
+std::vector<fs::path> prepare_directory(const Parameters& parameters,
+                                        const std::vector<std::string>& names,
                                         MPI_Comm communicator) {
   if (process_number(communicator) > 0)
     return {};
@@ -68,10 +78,9 @@ std::vector<fs::path> prepare_directory(const Parameters& parameters, bool is_st
   if (error)
     throw BadValue("Output", "Directory",
                    "this directory cannot be made or written into: " + error.message());
-  check_own_files(directory, parameters,
-                  is_study ? std::set{OutputFile::parameters} : parameters.output.files);
+  check_names(directory, parameters, names);
   std::vector<fs::path> files;
-  if (read_file(directory / "parameters.prm").rfind(first_words, 0) == 0)
+  if (has_own_parameters(directory))
     for (const auto& entry : fs::directory_iterator(directory, error))
       if (!is_input(parameters, entry.path()))
         files.push_back(entry.path());

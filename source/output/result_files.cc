@@ -12,6 +12,7 @@
 
 #include <exception>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace rollwave {
@@ -45,6 +46,20 @@ bool fits_single_precision(const Units& units) {
 }
 
 } // namespace
+
+std::vector<std::string> result_file_names(const std::set<OutputFile>& kinds) {
+  const std::map<OutputFile, std::vector<std::string>> names_of = {
+      {OutputFile::summary, {"summary.json"}},
+      {OutputFile::contact, {"contact.csv"}},
+      {OutputFile::parameters, {"parameters.prm"}},
+      {OutputFile::solution, {"solution.vtu"}},
+      {OutputFile::surface, {"surface.vtu", "road.vtu"}},
+      {OutputFile::plot, picture_files("scene")}};
+  std::vector<std::string> names;
+  for (const OutputFile kind : kinds)
+    names.insert(names.end(), names_of.at(kind).begin(), names_of.at(kind).end());
+  return names;
+}
 
 WrittenFiles write_results(const std::filesystem::path& directory, const Parameters& parameters,
                            Solution& solution) {

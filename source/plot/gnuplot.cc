@@ -40,6 +40,10 @@ std::string in_single_quotes(const std::string& text) {
   return '\'' + line + '\'';
 }
 
+std::vector<std::string> picture_files(const std::string& name) {
+  return {name + ".gp", name + ".svg"};
+}
+
 void draw(const std::vector<Picture>& pictures, const fs::path& directory, WrittenFiles& written) {
   for (const auto& [name, script, width, height] : pictures)
     written.write(directory / (name + ".gp"),

@@ -1,6 +1,7 @@
 #include "rollwave/study/study_files.h"
 
 #include "rollwave/parameters/parameters.h"
+#include "rollwave/plot/gnuplot.h"
 #include "rollwave/study/study_csv.h"
 #include "rollwave/study/study_pictures.h"
 #include "rollwave/study/study_table.h"
@@ -47,6 +48,18 @@ std::string pvd_of(const Study& study) {
 }
 
 } // namespace
+
+std::vector<std::string> study_file_names(const Parameters& parameters) {
+  std::vector<std::string> names = {"parameters.prm", "study.csv", "study-profiles.csv",
+                                    "study.txt", "study.tex"};
+  if (parameters.study.files_of_each_run.count(OutputFile::solution) > 0)
+    names.push_back("study.pvd");
+  if (parameters.wants(OutputFile::plot))
+    for (const char* const picture : study_picture_names)
+      for (const std::string& name : picture_files(picture))
+        names.push_back(name);
+  return names;
+}
 
 WrittenFiles write_study(const Parameters& parameters, const Study& study,
                          std::vector<std::filesystem::path> older) {

@@ -6,7 +6,7 @@
 #include <mpi.h>
 
 #include <filesystem>
-#include <set>
+#include <string>
 #include <vector>
 
 namespace rollwave {
@@ -17,20 +17,18 @@ namespace rollwave {
 void write_parameters(const std::filesystem::path& directory, const Parameters& parameters,
                       WrittenFiles& written);
 
-/// Refuses a directory in which parameters.prm, or summary.json if it is one of the @p kinds to
-/// write, is not a file of this program. The parameter file that was read is never written, and may
-/// be there. @throws BadValue
-void check_own_files(const std::filesystem::path& directory, const Parameters& parameters,
-                     const std::set<OutputFile>& kinds);
-
 /**
  * Makes the directory of a run, on rank 0 for all.
  *
+ * @param names of all files that the run will write in it
  * @return the files in it if it has the parameters.prm of an earlier run, else none
- * @throws BadValue when the directory cannot be made or written into, and as check_own_files();
- *         NotWritten when there is no space for it
+ * @throws BadValue when the directory cannot be made or written into, when one of these files is
+ *         the parameter file that is read (except parameters.prm, which write_parameters() then
+ *         leaves as it is), or is there without the parameters.prm of an earlier run;
+ *         NotWritten when there is no space for the directory
  */
-std::vector<std::filesystem::path> prepare_directory(const Parameters& parameters, bool is_study,
+std::vector<std::filesystem::path> prepare_directory(const Parameters& parameters,
+                                                     const std::vector<std::string>& names,
                                                      MPI_Comm communicator);
 
 } // namespace rollwave

@@ -4,9 +4,13 @@
 #include "rollwave/study/study.h"
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rollwave {
+
+/// The names of the files that write_study() may write in the directory of a study.
+std::vector<std::string> study_file_names(const Parameters& parameters);
 
 /// Writes the tables of the runs that have ended: study.csv, study-profiles.csv, study.txt and
 /// study.tex (a table for the screen and for LaTeX); study.pvd (the fields of the runs, if they are

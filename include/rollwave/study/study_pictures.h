@@ -11,6 +11,11 @@ namespace rollwave {
 /// a number.
 std::vector<double> fastest_numbers(const Study& study);
 
+/// The names of all pictures of draw_study().
+constexpr const char* study_picture_names[] = {"study-curves", "study-profiles", "study-map",
+                                               "study-h",      "study-unknowns", "study-time",
+                                               "study"};
+
 /**
  * Draws the pictures that a study has data for, each with its gnuplot script:
  *
