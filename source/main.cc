@@ -41,7 +41,7 @@ void run_action(const std::string& program, const std::vector<std::string>& argu
   case CommandLine::Action::parameters: {
     // deal.II throws where it cannot write.
     std::ostringstream text;
-    print_parameters(text, settings_of(line, communicator));
+    print_parameters(text, read_parameters(settings_of(line, communicator)));
     out << text.str();
     break;
   }

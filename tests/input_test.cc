@@ -21,7 +21,7 @@ namespace {
 
 std::string printed(const std::vector<Setting>& settings) {
   std::ostringstream text;
-  print_parameters(text, settings);
+  print_parameters(text, read_parameters(settings));
   return text.str();
 }
 

@@ -59,7 +59,7 @@ void write_parameters(const fs::path& directory, const Parameters& parameters,
   }
   std::ostringstream text;
   text << first_words << version_text() << ".\n\n";
-  print_parameters(text, parameters.settings);
+  print_parameters(text, parameters);
   written.write(path, text.str());
 }
 

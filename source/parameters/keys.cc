@@ -94,24 +94,27 @@ void check_section(const std::string& name, const std::string& place) {
     throw BadInput(place + ": no section " + in_quotes(name) + nearest(name, ""));
 }
 
-void apply(Setting& setting, Parameters& parameters) {
+Assignment read(const Setting& setting) {
   const Key& key = key_of(setting);
   const std::string& value = setting.value;
   if (value != trimmed(value) || value.find('#') != std::string::npos ||
       std::any_of(value.begin(), value.end(), [](unsigned char c) { return std::iscntrl(c); }) ||
       (!value.empty() && value.back() == '\\'))
-    throw BadInput(refusal(setting, "a parameter file cannot hold #, control characters, blanks "
-                                    "at the ends or a backslash at the end of a value"));
+    throw RefusedSetting(setting, "a parameter file cannot hold #, control characters, blanks at "
+                                  "the ends or a backslash at the end of a value");
   try {
-    key.convert(setting, parameters);
+    Assignment assignment{setting, {}};
+    assignment.assign = key.read(assignment);
+    return assignment;
   } catch (const std::invalid_argument& error) {
-    throw BadInput(refusal(setting, std::string("invalid. ") + error.what() +
-                                        (*error.what() ? " " : "") + "Expected: " + key.text +
-                                        hint_on_letters(value) + hint_on_values(setting)));
+    throw RefusedSetting(setting, std::string("invalid. ") + error.what() +
+                                      (*error.what() ? " " : "") + "Expected: " + key.text +
+                                      hint_on_letters(value) + hint_on_values(setting));
+  } catch (const RefusedSetting&) {
+    throw;
   } catch (const BadInput& error) {
-    throw BadInput(refusal(setting, error.what()));
+    throw RefusedSetting(setting, error.what());
   }
-  parameters.settings.push_back(setting);
 }
 
 double convert_number(std::string& text, const Range& range, bool is_whole) {

@@ -56,19 +56,21 @@ std::string text_of(const std::set<OutputFile>& files) {
 void declare_output(Section<OutputOptions> keys) {
   keys.declare(
       "Directory", OutputOptions().directory,
-      [](Setting& setting, Parameters& p) {
+      [](Setting& setting) {
         if (setting.value.empty())
           throw std::invalid_argument("");
         if (setting.value.front() == '~')
           throw BadInput("only a shell knows the directory ~; write its name, or ./~ for a "
                          "directory whose name begins so");
-        p.output.directory = setting.value;
+        return [directory = setting.value](Parameters& p) { p.output.directory = directory; };
       },
       "Directory of the files, relative to the current one, made when missing. Where this key is "
       "left out: output/NAME for a parameter file NAME.prm.");
   keys.declare(
       "Files", "summary, contact, solution, surface, plot",
-      [](Setting& setting, Parameters& p) { p.output.files = parse_files(setting.value); },
+      [](Setting& setting) {
+        return [files = parse_files(setting.value)](Parameters& p) { p.output.files = files; };
+      },
       "Files to write in addition to parameters.prm: any of summary (summary.json), contact "
       "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
       "study.svg of a study).");
@@ -79,8 +81,10 @@ void declare_output(Section<OutputOptions> keys) {
       "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
   keys.declare(
       "Unit names", "",
-      [](Setting& setting, Parameters& p) {
-        p.material.unit_names = parse_unit_names(setting.value);
+      [](Setting& setting) {
+        return [names = parse_unit_names(setting.value)](Parameters& p) {
+          p.material.unit_names = names;
+        };
       },
       "Empty, or names of the units of length, time and force, as in \"m, s, N\" or \"mm, s, N\", "
       "of letters, digits, blanks and ^*/.-()%: screen, files and pictures then name the unit of "

@@ -107,8 +107,7 @@ std::vector<Setting> read_settings(const std::filesystem::path& file, MPI_Comm c
   return parse_settings(broadcast(communicator, text.str()), name);
 }
 
-void print_parameters(std::ostream& out, const std::vector<Setting>& settings) {
-  const Parameters parameters = read_parameters(settings);
+void print_parameters(std::ostream& out, const Parameters& parameters) {
   ParameterHandler prm;
   for (const Key& key : all_keys()) {
     prm.enter_subsection(key.section);

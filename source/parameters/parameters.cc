@@ -32,7 +32,9 @@ void declare_cylinder(Section<CylinderOptions> keys) {
            {Affects::titles, "ω", Quantity::angular_velocity});
   keys.declare(
       "Radial force", CylinderOptions().radial_force,
-      [](Setting& setting, Parameters& p) { p.cylinder.radial_force = setting.value; },
+      [](Setting& setting) {
+        return [force = setting.value](Parameters& p) { p.cylinder.radial_force = force; };
+      },
       "Radial force f per unit of volume, positive outwards: an expression in r and z, a <= r "
       "<= b, 0 <= z < 2 pi, as in 1 + 0.5*r*cos(z) or if(r > 0.7 && z < 4, 1, 0). int and "
       "rint round to the nearest integer (int(1.7) is 2), floor down and ceil up.",
@@ -71,9 +73,10 @@ std::optional<std::pair<double, double>> convert_zone(Setting& setting) {
 void declare_road(Section<RoadOptions> keys) {
   keys.declare(
       "Distance", number_text(RoadOptions().distance),
-      [](Setting& setting, Parameters& p) {
-        p.road.distance = setting.value == "none" ? RoadOptions().distance
-                                                  : convert_number(setting.value, positive);
+      [](Setting& setting) {
+        const double distance = setting.value == "none" ? RoadOptions().distance
+                                                        : convert_number(setting.value, positive);
+        return [=](Parameters& p) { p.road.distance = distance; };
       },
       "Distance c of the road below the axle: a length, greater than a; less than 2 b where the "
       "contact zone is auto. \"none\" where a load is given.",
@@ -94,7 +97,9 @@ void declare_road(Section<RoadOptions> keys) {
            {0, "κ"});
   keys.declare(
       "Contact zone", "auto",
-      [](Setting& setting, Parameters& p) { p.road.contact_zone = convert_zone(setting); },
+      [](Setting& setting) {
+        return [zone = convert_zone(setting)](Parameters& p) { p.road.contact_zone = zone; };
+      },
       "The angles between which contact is possible: \"auto\" or two numbers \"z0, z1\" with "
       "pi < z0 < z1 < 2 pi, in radians; the lowest point is at 3 pi / 2. \"auto\": if "
       "the force is uniform, the angles at which the surface without contact would penetrate the "
@@ -178,6 +183,13 @@ void declare_contact(Section<ContactOptions> keys) {
            "Largest number of steps of the contact iteration, 1 to 2147483647.");
 }
 
+void apply(const std::vector<Assignment>& assignments, Parameters& parameters) {
+  for (const Assignment& assignment : assignments) {
+    assignment.assign(parameters);
+    parameters.settings.push_back(assignment);
+  }
+}
+
 /// The later one of distance and load holds; the other becomes none.
 void settle_distance_and_load(Parameters& parameters) {
   std::optional<Setting> distance, load;
@@ -199,7 +211,7 @@ void settle_distance_and_load(Parameters& parameters) {
   Setting other = is_load_later ? *load : *distance;
   other.key = is_load_later ? "Distance" : "Load";
   other.value = "none";
-  apply(other, parameters);
+  apply({read(other)}, parameters);
 }
 
 } // namespace
@@ -220,12 +232,18 @@ const std::vector<Key>& all_keys() {
   return all;
 }
 
-Parameters read_parameters(const std::vector<Setting>& settings, Parameters before) {
-  Parameters parameters = std::move(before);
-  for (Setting setting : settings)
-    apply(setting, parameters);
+Parameters with(Parameters parameters, const std::vector<Assignment>& assignments) {
+  apply(assignments, parameters);
   settle_distance_and_load(parameters);
-  convert_runs(parameters.study);
+  return parameters;
+}
+
+Parameters read_parameters(const std::vector<Setting>& settings) {
+  std::vector<Assignment> assignments;
+  for (const Setting& setting : settings)
+    assignments.push_back(read(setting));
+  const Parameters parameters = with({}, assignments);
+  check_scenes(parameters.study);
   return parameters;
 }
 

@@ -65,13 +65,13 @@ std::vector<std::string> values_of(const std::string& text) {
 
 /// The assignment of a value, which may be in quotes, to a key that may differ between the runs of
 /// a study.
-Setting parse_run_setting(const std::string& text, const Setting& study) {
+Assignment read_run_setting(const std::string& text, const Setting& study) {
   Setting setting = parse_setting(text, study.origin + ", section Study");
   setting.line = study.line;
   if (setting.section == "Study" || setting.section == "Output")
     throw BadInput(setting.path() + " cannot be varied");
   setting.value = without_quotes(setting.value);
-  return setting;
+  return read(setting);
 }
 
 /// "Key & Key = value & value | ..." or "Key = value | ...".
@@ -87,7 +87,7 @@ Variation parse_variation(const std::string& text, const Setting& study) {
                      std::to_string(names.size()) + " keys that vary together");
     variation.emplace_back();
     for (unsigned int k = 0; k < names.size(); ++k)
-      variation.back().push_back(parse_run_setting(names[k] + '=' + values[k], study));
+      variation.back().push_back(read_run_setting(names[k] + '=' + values[k], study));
   };
   for (const std::string& choice : split_unquoted(text.substr(equals + 1), '|'))
     if (choice.empty())
@@ -126,7 +126,7 @@ std::vector<NamedScene> parse_scenes(const Setting& setting) {
       throw BadInput("there are two scenes of the name " + in_quotes(name));
     scenes.push_back({name, {}});
     for (const std::string& assignment : split_unquoted(part.substr(colon + 1), '&'))
-      scenes.back().settings.push_back(parse_run_setting(assignment, setting));
+      scenes.back().settings.push_back(read_run_setting(assignment, setting));
   }
   return scenes;
 }
@@ -141,33 +141,30 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
 
 } // namespace
 
-void convert_runs(StudyOptions& study) {
+void check_scenes(const StudyOptions& study) {
   // Distance and load replace each other.
   const auto place = [](const Setting& setting) {
     return setting.path() == "Road/Load" ? "Road/Distance" : setting.path();
   };
   std::set<std::string> varied;
-  Parameters scratch;
-  for (Variation& variation : study.vary)
-    for (auto& choice : variation)
-      for (Setting& setting : choice) {
-        apply(setting, scratch);
-        varied.insert(place(setting));
-      }
-  for (NamedScene& scene : study.scenes) {
+  for (const Variation& variation : study.vary)
+    for (const Setting& setting : variation.front())
+      varied.insert(place(setting));
+  for (const NamedScene& scene : study.scenes) {
     std::set<std::string> paths;
-    for (Setting& setting : scene.settings) {
-      apply(setting, scratch);
+    for (const Setting& setting : scene.settings)
       if (!paths.insert(setting.path()).second || varied.count(place(setting)))
-        throw BadInput(refusal(setting, "the scene " + in_quotes(scene.name) +
-                                            " or Study/Vary gives the key another value"));
-    }
+        throw RefusedSetting(setting, "the scene " + in_quotes(scene.name) +
+                                          " or Study/Vary gives the key another value");
   }
 }
 
 void declare_study(Section<StudyOptions> keys) {
   keys.declare(
-      "Vary", "", [](Setting& setting, Parameters& p) { p.study.vary = parse_vary(setting); },
+      "Vary", "",
+      [](Setting& setting) {
+        return [vary = parse_vary(setting)](Parameters& p) { p.study.vary = vary; };
+      },
       "Empty for a single scene, otherwise the keys to vary and their values, as in "
       "\"Mesh/Degree = 1 | 2; Contact/Rho = 1 | 2 | 3\": every combination is run, the last key "
       "varies fastest. A value may be a range first : last : step, as in \"Road/Distance = 0.6 : "
@@ -175,15 +172,20 @@ void declare_study(Section<StudyOptions> keys) {
       "cells & Mesh/Angular cells = 4 & 48 | 8 & 96\". Double quotes around a value protect the "
       "signs | & ; : in it. Keys of Study and Output cannot be varied, and each key at most once.");
   keys.declare(
-      "Scenes", "", [](Setting& setting, Parameters& p) { p.study.scenes = parse_scenes(setting); },
+      "Scenes", "",
+      [](Setting& setting) {
+        return [scenes = parse_scenes(setting)](Parameters& p) { p.study.scenes = scenes; };
+      },
       "Empty, or scenes that differ from the file's in several keys at once: a name and settings "
       "for each, as in \"flat: Road/Distance = 0.9; small hub: Cylinder/Inner radius = 0.1 & "
       "Mesh/Radial cells = 8\", where double quotes protect the signs & and ; in a value. Every "
       "scene is run with every combination of Vary.");
   keys.declare(
       "Published steps", "",
-      [](Setting& setting, Parameters& p) {
-        p.study.published_steps = parse_counts(setting.value);
+      [](Setting& setting) {
+        return [counts = parse_counts(setting.value)](Parameters& p) {
+          p.study.published_steps = counts;
+        };
       },
       "Published numbers of contact steps, which tables and plots show next to the computed ones: "
       "one for each run in the order of the runs, separated by commas, - where unknown.");
@@ -193,9 +195,10 @@ void declare_study(Section<StudyOptions> keys) {
            "are complete.");
   keys.declare(
       "Files of each run", "",
-      [](Setting& setting, Parameters& p) {
-        const std::string& text = setting.value;
-        p.study.files_of_each_run = text.empty() ? std::set<OutputFile>() : parse_files(text);
+      [](Setting& setting) {
+        const auto files =
+            setting.value.empty() ? std::set<OutputFile>() : parse_files(setting.value);
+        return [=](Parameters& p) { p.study.files_of_each_run = files; };
       },
       "Files to write for each run of a study, any of those of Output/Files, into a directory of "
       "the run, which study.csv names in the column files. With solution, study.pvd is the series "

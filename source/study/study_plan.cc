@@ -31,10 +31,10 @@ void check_number_of_runs(const StudyOptions& study) {
 }
 
 /// All combinations of one choice from each variation, the last varying fastest.
-std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& variations) {
-  std::vector<std::vector<Setting>> all(1);
+std::vector<std::vector<Assignment>> combinations(const std::vector<Variation>& variations) {
+  std::vector<std::vector<Assignment>> all(1);
   for (const Variation& variation : variations) {
-    std::vector<std::vector<Setting>> longer;
+    std::vector<std::vector<Assignment>> longer;
     for (const auto& combination : all)
       for (const auto& choice : variation) {
         longer.push_back(combination);
@@ -45,24 +45,27 @@ std::vector<std::vector<Setting>> combinations(const std::vector<Variation>& var
   return all;
 }
 
-/// The settings that the runs of a scene share.
-std::vector<Setting> shared_settings(const Parameters& study,
-                                     const std::vector<Setting>& scene_settings) {
-  std::vector<Setting> shared;
-  for (const Setting& setting : study.settings)
-    if (setting.section != "Study" && setting.path() != "Output/Directory" &&
-        setting.path() != "Output/Files")
-      shared.push_back(setting);
-  shared.insert(shared.end(), scene_settings.begin(), scene_settings.end());
-  return shared;
+/// What the runs of a study share: its parameters without those of section Study, and without the
+/// place and the kinds of its own files.
+Parameters shared_parameters(Parameters parameters) {
+  parameters.study = {};
+  auto& settings = parameters.settings;
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                [](const Setting& setting) {
+                                  return setting.section == "Study" ||
+                                         setting.path() == "Output/Directory" ||
+                                         setting.path() == "Output/Files";
+                                }),
+                 settings.end());
+  return parameters;
 }
 
 /// See RunPlan::digest. @param run its parameters
-std::string digest_of(const Parameters& study, const Parameters& run) {
+std::string digest_of(const Parameters& run, bool has_true_errors) {
   std::map<std::string, std::string> values;
   for (const Setting& setting : run.settings)
     values[setting.path()] = setting.value; // the last one holds
-  std::string text = study.study.true_errors ? "with true errors\n" : "\n";
+  std::string text = has_true_errors ? "with true errors\n" : "\n";
   for (const Key& key : all_keys())
     if (key.section != "Study" && key.section != "Output") {
       const auto value = values.find(key.path());
@@ -97,16 +100,22 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   const std::vector<NamedScene> single(1);
   const auto choices = combinations(study.vary);
   std::vector<RunPlan> plans;
+  const Parameters shared = shared_parameters(parameters);
   for (const NamedScene& scene : study.scenes.empty() ? single : study.scenes) {
-    const Parameters shared = read_parameters(shared_settings(parameters, scene.settings));
-    for (const std::vector<Setting>& varied : choices) {
-      const Parameters run = read_parameters(varied, shared);
+    const Parameters of_scene = with(shared, scene.settings);
+    for (const std::vector<Assignment>& varied : choices) {
+      const Parameters run = with(of_scene, varied);
       try {
         check_simulation(make_scene(run), run);
       } catch (const BadValue& value) {
         throw BadInput(refusal(run.settings, value));
       }
-      plans.push_back({scene.name, scene.settings, varied, {}, run, digest_of(parameters, run)});
+      plans.push_back({scene.name,
+                       {scene.settings.begin(), scene.settings.end()},
+                       {varied.begin(), varied.end()},
+                       {},
+                       run,
+                       digest_of(run, study.true_errors)});
     }
   }
   check_method(plans);
@@ -118,12 +127,6 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   for (unsigned int i = 0; i < published.size(); ++i)
     plans[i].published_steps = published[i];
   return plans;
-}
-
-std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& plan) {
-  std::vector<Setting> settings = shared_settings(study, plan.scene_settings);
-  settings.insert(settings.end(), plan.varied.begin(), plan.varied.end());
-  return settings;
 }
 
 std::string axis_label(const Setting& setting, const Units& units) {

@@ -74,7 +74,7 @@ RunRecord StudySolver::solve(unsigned int number, const OwnFiles& files) {
   } catch (const NotSolved& failure) {
     run.failure = failure.what();
   } catch (const BadValue& value) {
-    run.failure = refusal(settings_of_run(study, plan), value);
+    run.failure = refusal(plan.parameters.settings, value);
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
     run.failure = refusal.what();
   } catch (const std::exception& failure) {
@@ -192,12 +192,10 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
 /// record.
 void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
   const auto own_directory = directory / directory_of_run(plan.digest);
-  std::vector<Setting> settings = settings_of_run(study, plan);
-  const Setting& kinds = *last_of(study.settings, "Study/Files of each run");
-  settings.push_back({"Output", "Files", text_of(run.files.kinds), kinds.origin});
-  settings.push_back({"Output", "Directory", own_directory.string(), kinds.origin});
-  Parameters parameters = read_parameters(settings);
-  parameters.file = study.file;
+  const std::string origin = last_of(study.settings, "Study/Files of each run")->origin;
+  const Parameters parameters =
+      with(plan.parameters, {read({"Output", "Files", text_of(run.files.kinds), origin}),
+                             read({"Output", "Directory", own_directory.string(), origin})});
   const WrittenFiles written = write_results(own_directory, parameters, *solution);
   for (const auto& file : written.files)
     run.sizes[file.filename().string()] = std::filesystem::file_size(file);

@@ -25,12 +25,27 @@ struct Setting {
 /// @throws BadInput when @p text has another form.
 Setting parse_setting(const std::string& text, const std::string& origin);
 
+/// A setting whose value has been read: its text has a number in the place of an expression.
+struct Assignment : Setting {
+  std::function<void(Parameters& parameters)> assign; ///< gives the value to its member
+};
+
 /// The last setting of a key; nullptr without one.
 const Setting* last_of(const std::vector<Setting>& settings, const std::string& path);
 
 /// The message on a refused value: origin, section, key, value and reason.
 std::string refusal(const Setting& setting, const std::string& reason);
 std::string refusal(const std::vector<Setting>& settings, const BadValue& value);
+
+/// The value of a setting is refused; the text is that of refusal().
+struct RefusedSetting : BadInput {
+  RefusedSetting(const Setting& setting, const std::string& reason)
+      : BadInput(refusal(setting, reason)) {}
+};
+
+/// Reads the value of a setting once and for all.
+/// @throws BadInput for an unknown key, RefusedSetting for a value that the key does not accept
+Assignment read(const Setting& setting);
 
 /// The parts of a run that depend on a key; a key may have several of these flags.
 struct Affects {
@@ -51,13 +66,13 @@ struct KeyAttributes {
 
 /// A key of parameter files.
 struct Key : KeyAttributes {
-  /// Gives the value of a setting to its member of the parameters, and puts a number in the place
-  /// of an expression. Throws std::invalid_argument for a value that the text does not allow,
-  /// BadInput with the reason for others.
-  using Convert = std::function<void(Setting& setting, Parameters& parameters)>;
+  /// Reads the value of a setting, and puts a number in the place of an expression. The result
+  /// assigns the value to its member. Throws std::invalid_argument for a value that the text does
+  /// not allow, BadInput with the reason for others, RefusedSetting for a setting in the value.
+  using Read = std::function<std::function<void(Parameters&)>(Setting& setting)>;
 
   std::string section, name, default_value, text;
-  Convert convert;
+  Read read;
 
   std::string path() const { return section + '/' + name; }
 };

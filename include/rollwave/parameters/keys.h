@@ -12,10 +12,6 @@
 
 namespace rollwave {
 
-/// Gives a value to its key and adds it to the settings of @p parameters. The setting may be a
-/// number where the user has given an expression. @throws BadInput
-void apply(Setting& setting, Parameters& parameters);
-
 /// @throws BadInput with the nearest sections where there is none of this name
 void check_section(const std::string& name, const std::string& place);
 
@@ -46,23 +42,24 @@ public:
   template <typename T, typename Owner>
   void add(const std::string& key, T Owner::*member, const Range& range, const std::string& text,
            const KeyAttributes& attributes = {}) {
-    const auto convert = [options = options, member, range](Setting& setting, Parameters& p) {
-      (p.*options).*member = convert_number(setting.value, range, std::is_integral_v<T>);
+    const auto read = [options = options, member, range](Setting& setting) {
+      const T value = convert_number(setting.value, range, std::is_integral_v<T>);
+      return [=](Parameters& p) { (p.*options).*member = value; };
     };
-    declare(key, number_text(Options().*member), convert, text, attributes);
+    declare(key, number_text(Options().*member), read, text, attributes);
   }
 
   /// A number or, as its default, a word that stands for none.
   template <typename T, typename Owner>
   void add(const std::string& key, std::optional<T> Owner::*member, const std::string& word,
            const Range& range, const std::string& text, const KeyAttributes& attributes = {}) {
-    const auto convert = [options = options, member, word, range](Setting& setting, Parameters& p) {
-      auto& value = (p.*options).*member;
-      value.reset();
+    const auto read = [options = options, member, word, range](Setting& setting) {
+      std::optional<T> value;
       if (setting.value != word)
         value = convert_number(setting.value, range, std::is_integral_v<T>);
+      return [=](Parameters& p) { (p.*options).*member = value; };
     };
-    declare(key, word, convert, text, attributes);
+    declare(key, word, read, text, attributes);
   }
 
   /// "true" or "false".
@@ -81,20 +78,20 @@ public:
     for (const auto& [known, choice] : choices)
       if (choice == Options().*member)
         default_name = known;
-    const auto convert = [options = options, member, choices](Setting& setting, Parameters& p) {
-      const auto choice = choices.find(setting.value);
-      if (choice == choices.end())
+    const auto read = [options = options, member, choices](Setting& setting) {
+      const auto found = choices.find(setting.value);
+      if (found == choices.end())
         throw std::invalid_argument("");
-      (p.*options).*member = choice->second;
+      const Choice choice = found->second;
+      return [=](Parameters& p) { (p.*options).*member = choice; };
     };
-    declare(key, default_name, convert, text, attributes);
+    declare(key, default_name, read, text, attributes);
   }
 
-  /// A key whose value @p convert takes.
-  void declare(const std::string& key, const std::string& default_value,
-               const Key::Convert& convert, const std::string& text,
-               const KeyAttributes& attributes = {}) {
-    keys.push_back({attributes, name, key, default_value, text, convert});
+  /// A key whose value @p read takes.
+  void declare(const std::string& key, const std::string& default_value, const Key::Read& read,
+               const std::string& text, const KeyAttributes& attributes = {}) {
+    keys.push_back({attributes, name, key, default_value, text, read});
     keys.back().affects |= affects;
   }
 

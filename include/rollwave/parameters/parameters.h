@@ -45,17 +45,19 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
                                    MPI_Comm communicator = MPI_COMM_SELF);
 
 /**
- * The parameters @p before with further settings, which override theirs. The later one of
- * `Road/Distance` and `Road/Load` replaces the other.
+ * The parameters with further values, which override theirs. The later one of `Road/Distance` and
+ * `Road/Load` replaces the other.
  *
- * @throws BadInput for an unknown section or key, a value that its key does not accept, a distance
- * and a load of the same origin, such as the command line, or a key that a scene of a study sets
- * twice or that varies as well. Other conditions between keys are checked by make_scene().
+ * @throws BadInput for a distance and a load of the same origin, such as the command line
  */
-Parameters read_parameters(const std::vector<Setting>& settings, Parameters before = {});
+Parameters with(Parameters parameters, const std::vector<Assignment>& assignments);
 
-/// A complete commented parameter file: defaults, overridden by @p settings.
-/// @throws BadInput as read_parameters().
-void print_parameters(std::ostream& out, const std::vector<Setting>& settings);
+/// The parameters of the defaults with() these settings.
+/// @throws BadInput as read() and with(), and for a key that a scene of a study sets twice or that
+/// varies as well. Other conditions between keys are checked by make_scene().
+Parameters read_parameters(const std::vector<Setting>& settings);
+
+/// A complete commented parameter file: defaults, overridden by the settings of @p parameters.
+void print_parameters(std::ostream& out, const Parameters& parameters);
 
 } // namespace rollwave

@@ -16,11 +16,11 @@ class Section;
 /// A scene of a study by its name, with the settings that make it.
 struct NamedScene {
   std::string name;
-  std::vector<Setting> settings;
+  std::vector<Assignment> settings;
 };
 
 /// The choices for a key, or for keys that vary together: one setting for each key.
-using Variation = std::vector<std::vector<Setting>>;
+using Variation = std::vector<std::vector<Assignment>>;
 
 /// The part of a study that one call makes: of its runs every count-th, beginning with this one.
 struct StudyPart {
@@ -39,9 +39,7 @@ struct StudyOptions {
 /// The keys of the section.
 void declare_study(Section<StudyOptions> keys);
 
-/// Puts numbers in the place of expressions in the settings of all runs.
-/// @throws BadInput for one that its key does not accept, or a key that a scene sets twice or that
-///         varies as well
-void convert_runs(StudyOptions& study);
+/// @throws RefusedSetting for a key that a scene sets twice or that varies as well
+void check_scenes(const StudyOptions& study);
 
 } // namespace rollwave

@@ -15,7 +15,7 @@ struct RunPlan {
   std::vector<Setting> scene_settings; ///< those of this scene
   std::vector<Setting> varied;         ///< one setting for each key of Study/Vary
   std::optional<unsigned int> published_steps;
-  RunOptions parameters; ///< of this run alone
+  Parameters parameters; ///< of this run alone, without those of section Study
 
   /// A digest of the parameters of this run as the program holds them, without those of Output; of
   /// `True errors`, which adds to its results; and of the program, see digest_with_program().
@@ -27,9 +27,6 @@ struct RunPlan {
 /// @throws BadInput when any setting is refused, or `Study/Published steps` does not have one entry
 ///         for each run
 std::vector<RunPlan> plan_runs(const Parameters& parameters);
-
-/// All settings of a run of @p study: those that its runs share, of its scene, and the varied ones.
-std::vector<Setting> settings_of_run(const Parameters& study, const RunPlan& plan);
 
 /// The label of an axis: a key with its symbol and unit, such as "distance c [m]".
 std::string axis_label(const Setting& setting, const Units& units);
