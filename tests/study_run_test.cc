@@ -323,7 +323,7 @@ TEST_F(RepeatedStudy, GoesOnAfterAnExceptionOfALibrary) {
     };
     StudySolver solver(study.plans, all, directory, progress, MPI_COMM_SELF);
     for (unsigned int run = 0; run < 3; ++run) {
-      const RunRecord made = solver.solve(run, {});
+      const RunRecord made = solver.record_of(run, {});
       EXPECT_EQ(made.is_solved(), run != 1) << made.failure;
       EXPECT_EQ(made.failure.find("broken") != std::string::npos, run == 1) << made.failure;
     }

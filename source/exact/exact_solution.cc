@@ -51,8 +51,10 @@ ExactSolution without_contact(const ExactScene& scene) {
   const double f = scene.force_density;
   const double work =
       2 * numbers::PI * f * f * contact_free_unit_work(scene.inner_radius, scene.outer_radius);
-  const GegenbauerPressure no_pressure = {lowest_point, 1, 1, {0.}};
-  return {scene, 0, {0, 0, 0}, -work / 2, work, 0, 0, 0, 0, 0.5, true, no_pressure};
+  ExactSolution solution = {scene};
+  solution.energy = -work / 2;
+  solution.norm_squared = work;
+  return solution;
 }
 
 ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galerkin, double w) {

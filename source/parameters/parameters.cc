@@ -232,7 +232,7 @@ const std::vector<Key>& all_keys() {
   return all;
 }
 
-Parameters with(Parameters parameters, const std::vector<Assignment>& assignments) {
+Parameters with_values(Parameters parameters, const std::vector<Assignment>& assignments) {
   apply(assignments, parameters);
   settle_distance_and_load(parameters);
   return parameters;
@@ -242,7 +242,7 @@ Parameters read_parameters(const std::vector<Setting>& settings) {
   std::vector<Assignment> assignments;
   for (const Setting& setting : settings)
     assignments.push_back(read(setting));
-  const Parameters parameters = with({}, assignments);
+  const Parameters parameters = with_values({}, assignments);
   check_scenes(parameters.study);
   return parameters;
 }

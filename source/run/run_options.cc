@@ -19,7 +19,7 @@ void check_certificate(const RunOptions& options) {
 
 Scene make_scene(const RunOptions& options) {
   check_certificate(options);
-  return make_scene(options.cylinder, options.road, options.material, options.mesh.angular_cells);
+  return scaled_scene(options.cylinder, options.road, options.material, options.mesh.angular_cells);
 }
 
 } // namespace rollwave

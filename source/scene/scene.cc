@@ -161,8 +161,8 @@ Scene with_distance(Scene scene, double c) {
   return scene;
 }
 
-Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
-                 const MaterialOptions& material, unsigned int angular_cells) {
+Scene scaled_scene(const CylinderOptions& cylinder, const RoadOptions& road,
+                   const MaterialOptions& material, unsigned int angular_cells) {
   check_cylinder(cylinder, material);
   const double a = cylinder.inner_radius, b = cylinder.outer_radius;
   const double least_distance = std::max(a, 0.05 * b); // for a given load

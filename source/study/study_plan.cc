@@ -102,9 +102,9 @@ std::vector<RunPlan> plan_runs(const Parameters& parameters) {
   std::vector<RunPlan> plans;
   const Parameters shared = shared_parameters(parameters);
   for (const NamedScene& scene : study.scenes.empty() ? single : study.scenes) {
-    const Parameters of_scene = with(shared, scene.settings);
+    const Parameters of_scene = with_values(shared, scene.settings);
     for (const std::vector<Assignment>& varied : choices) {
-      const Parameters run = with(of_scene, varied);
+      const Parameters run = with_values(of_scene, varied);
       try {
         check_simulation(make_scene(run), run);
       } catch (const BadValue& value) {

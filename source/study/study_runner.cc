@@ -76,7 +76,7 @@ RunRecord make_run(const Study& study, unsigned int run, StudySolver& solver,
       if (is_first)
         write_record(directory, digest, *earlier);
     }
-  RunRecord record = solver.solve(run, files);
+  RunRecord record = solver.record_of(run, files);
   if (is_first && record.is_solved())
     write_record(directory, digest, record);
   return record;

@@ -61,7 +61,7 @@ StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& st
     : plans(plans), study(study), directory(directory), progress(progress),
       communicator(communicator) {}
 
-RunRecord StudySolver::solve(unsigned int number, const OwnFiles& files) {
+RunRecord StudySolver::record_of(unsigned int number, const OwnFiles& files) {
   const RunPlan& plan = plans[number];
   RunRecord run;
   run.files = files;
@@ -194,8 +194,8 @@ void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
   const auto own_directory = directory / directory_of_run(plan.digest);
   const std::string origin = last_of(study.settings, "Study/Files of each run")->origin;
   const Parameters parameters =
-      with(plan.parameters, {read({"Output", "Files", text_of(run.files.kinds), origin}),
-                             read({"Output", "Directory", own_directory.string(), origin})});
+      with_values(plan.parameters, {read({"Output", "Files", text_of(run.files.kinds), origin}),
+                                    read({"Output", "Directory", own_directory.string(), origin})});
   const WrittenFiles written = write_results(own_directory, parameters, *solution);
   for (const auto& file : written.files)
     run.sizes[file.filename().string()] = std::filesystem::file_size(file);

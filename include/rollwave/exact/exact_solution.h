@@ -22,26 +22,26 @@ namespace rollwave {
  */
 struct ExactSolution {
   ExactScene scene;
-  double half_width; ///< w; 0 without contact
-  Loads loads;
-  double energy;       ///< J(u)
-  double norm_squared; ///< a(u, u)
-  double peak_pressure;
+  double half_width = 0; ///< w; 0 without contact
+  Loads loads = {0, 0, 0};
+  double energy = 0;       ///< J(u)
+  double norm_squared = 0; ///< a(u, u)
+  double peak_pressure = 0;
 
   /// Estimated relative errors: the numbers are limits of the growing series.
-  double force_accuracy;
-  double energy_accuracy;
-  double half_width_accuracy;
+  double force_accuracy = 0;
+  double energy_accuracy = 0;
+  double half_width_accuracy = 0;
 
   /// Exponent of the pressure at the ends: 1 - s, or -s where the zone cuts the contact short.
-  double end_exponent;
+  double end_exponent = 0.5;
 
   /// False near the critical speed, where the series does not resolve the law at the ends: F and J
   /// are accurate, the pressure at the ends is not.
-  bool ends_resolved;
+  bool ends_resolved = true;
 
   /// lambda(z), of the longest series; identically zero without contact.
-  GegenbauerPressure pressure;
+  GegenbauerPressure pressure = {lowest_point, 1, 1, {0.}};
 };
 
 /// @throws NotSolved when the series does not converge.

@@ -50,11 +50,11 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
  *
  * @throws BadInput for a distance and a load of the same origin, such as the command line
  */
-Parameters with(Parameters parameters, const std::vector<Assignment>& assignments);
+Parameters with_values(Parameters parameters, const std::vector<Assignment>& assignments);
 
-/// The parameters of the defaults with() these settings.
-/// @throws BadInput as read() and with(), and for a key that a scene of a study sets twice or that
-/// varies as well. Other conditions between keys are checked by make_scene().
+/// The parameters of the defaults with_values() these settings.
+/// @throws BadInput as read() and with_values(), and for a key that a scene of a study sets twice
+/// or that varies as well. Other conditions between keys are checked by make_scene().
 Parameters read_parameters(const std::vector<Setting>& settings);
 
 /// A complete commented parameter file: defaults, overridden by the settings of @p parameters.

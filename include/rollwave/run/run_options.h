@@ -20,7 +20,7 @@ struct RunOptions {
 };
 
 /// The scene of @p options.
-/// @throws BadValue as make_scene() and where something is asked for that needs the error bound
+/// @throws BadValue as scaled_scene() and where something is asked for that needs the error bound
 Scene make_scene(const RunOptions& options);
 
 } // namespace rollwave

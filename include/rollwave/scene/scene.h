@@ -115,7 +115,7 @@ std::string force_not_finite_at(const Scene& scene, double r, double z);
 Scene with_distance(Scene scene, double c);
 
 /**
- * The scene that options describe.
+ * The scene that options describe, in its units.
  *
  * @param angular_cells of the first mesh, for the margin of an automatic zone
  * A speed that is the critical one rounded to six digits or more is taken as the critical one.
@@ -124,7 +124,7 @@ Scene with_distance(Scene scene, double c);
  * automatic zone, -1/kappa > b and c for kappa < 0, kappa b <= 1e10, pi < z0 < z1 < 2 pi and the
  * force can be parsed and is finite.
  */
-Scene make_scene(const CylinderOptions& cylinder, const RoadOptions& road,
-                 const MaterialOptions& material, unsigned int angular_cells);
+Scene scaled_scene(const CylinderOptions& cylinder, const RoadOptions& road,
+                   const MaterialOptions& material, unsigned int angular_cells);
 
 } // namespace rollwave

@@ -28,7 +28,7 @@ public:
   /// Solves the run of this number, from 0 on, and writes its @p files; if that fails the reason is
   /// in the record. The sizes of files are known to rank 0.
   /// @throws Interrupted even if there is a partial result; NotWritten
-  RunRecord solve(unsigned int number, const OwnFiles& files);
+  RunRecord record_of(unsigned int number, const OwnFiles& files);
 
 private:
   void solve(unsigned int number, RunRecord& run);
