@@ -298,11 +298,15 @@ TEST_F(RepeatedStudy, HasTheFilesOfItsRunsNextToThoseOfAnother) {
   EXPECT_EQ(run(one, StudyPart{1, 2}), 0u);
   EXPECT_EQ(run(one, StudyPart{2, 2}), 0u);
   EXPECT_EQ(run(one), 2u);
-  const std::string table = read("study.csv"), series = read("study.pvd");
+  const auto series_of_fields = [&] { // without the date
+    const std::string text = read("study.pvd");
+    return text.substr(text.find("<Collection>"));
+  };
+  const std::string series = series_of_fields();
   EXPECT_EQ(run(other), 0u); // the common run lacks contact.csv
   EXPECT_EQ(run(other), 2u);
   EXPECT_EQ(run(one), 2u);
-  EXPECT_EQ(read("study.pvd"), series);
+  EXPECT_EQ(series_of_fields(), series);
   const Study study = known(one);
   for (unsigned int i = 0; i < 2; ++i)
     EXPECT_EQ(nlohmann::json::parse(read(directory_of_run(study.plans[i].digest) /
