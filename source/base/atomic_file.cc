@@ -21,7 +21,8 @@ namespace {
 } // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path(path), temporary(path) {
-  temporary += "." + std::to_string(std::random_device()()) + ".part";
+  static const std::string own = "." + std::to_string(std::random_device()()) + ".part";
+  temporary += own;
   out.open(temporary, std::ios::binary);
   if (!out) { // perhaps the directory is not there, or was removed during a long computation
     std::error_code ignored;
