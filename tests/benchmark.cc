@@ -3,6 +3,7 @@
 // unknowns. Tables in Markdown.
 #include "rollwave/base/memory.h"
 #include "rollwave/run/solve_on_mesh.h"
+#include "rollwave/solver/assembly.h"
 #include "test_scenes.h"
 
 #include <deal.II/base/timer.h>
@@ -66,7 +67,7 @@ void benchmark_contact(const PaperScene& paper, const std::vector<std::string>& 
   const Parameters parameters = with(paper.parameters(), mesh);
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
-  const SystemMatrix matrix = stiffness_matrix(ring.space, scene);
+  const SystemMatrix matrix = assemble_stiffness(ring.space, scene);
   const LowerTriplets& triplets = matrix.entries();
   std::vector<double> plain, contact, ratio;
   for (int run = 0; run < 5; ++run) {

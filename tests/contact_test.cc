@@ -36,7 +36,7 @@ TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
   load(0) = 4;
   load(1) = -4;
   load(2) = 1;
-  const CondensedSystem system(cholesky_factor(stiffness));
+  CondensedSystem system(cholesky_factor(stiffness));
   const ContactEquations equations(system, load, 0, 3);
   RunStatistics statistics;
   ContactProblem problem;
@@ -174,7 +174,7 @@ TEST(Uzawa, LeavesNoMoreThanItsToleranceExplains) {
           SCOPED_TRACE("figure " + std::to_string(paper.figure) + ", rho = " + shortest_text(rho) +
                        ", tolerance " + shortest_text(tolerance) +
                        (stop == UzawaStop::gap ? ", gap" : ", change"));
-          const auto [displacement, force] =
+          const auto [displacement, force, kept] =
               uzawa(scene.equations, scene.problem,
                     {ContactMethod::uzawa, rho, stop, tolerance, 100000}, {}, scene.statistics)
                   .state;

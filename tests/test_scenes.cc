@@ -2,7 +2,6 @@
 
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/mesh/ring_mesh.h"
-#include "rollwave/solver/assembly.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -42,15 +41,6 @@ const std::vector<PaperScene>& paper_scenes() {
 MeshAndSpace::MeshAndSpace(const Scene& scene, const Parameters& parameters)
     : triangulation(make_ring_mesh(scene, parameters.mesh, MPI_COMM_SELF)),
       space(*triangulation, scene, parameters.mesh.degree), boundary(space, scene.zone()) {}
-
-SystemMatrix stiffness_matrix(const RingSpace& space, const Scene& scene,
-                              const std::vector<SurfaceNode>& contact_nodes) {
-  SystemMatrix matrix(space, space.constraints(), contact_nodes);
-  assemble_stiffness(space, scene, [&](const auto& dofs, const auto& cell_matrix) {
-    matrix.add(dofs, cell_matrix);
-  });
-  return matrix;
-}
 
 FieldVector assemble_load(const RingSpace& space, const Scene& scene) {
   const RadialShapesOfMesh shapes(space, scene);

@@ -4,7 +4,6 @@
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/run/simulation.h"
-#include "rollwave/solver/sparse_factor.h"
 
 #include <deal.II/grid/tria.h>
 
@@ -47,10 +46,6 @@ struct MeshAndSpace {
   RingSpace space;
   ContactBoundary boundary;
 };
-
-/// The stiffness matrix before it is factorised.
-SystemMatrix stiffness_matrix(const RingSpace& space, const Scene& scene,
-                              const std::vector<SurfaceNode>& contact_nodes = {});
 
 /// The load of a scene's force.
 FieldVector assemble_load(const RingSpace& space, const Scene& scene);

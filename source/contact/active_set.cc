@@ -18,7 +18,7 @@ constexpr double round_off = 1e-14;
 /// Checks the contact conditions of a state, and proposes the @p next set.
 ContactStep check_conditions(const ContactProblem& problem, const ContactSolution& solution,
                              std::vector<bool>& next) {
-  const auto& [displacement, force] = solution.state;
+  const auto& [displacement, force, kept] = solution.state;
   const Vector<double> gap = problem.gaps(displacement), pressure = problem.pressures(force);
   const double least_pressure = -round_off * pressure.linfty_norm(),
                least_gap = -round_off * displacement.linfty_norm();

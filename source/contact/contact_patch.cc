@@ -108,7 +108,7 @@ double ContactResultants::half_width() const {
 
 ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
                                   const ContactProblem& problem, const ContactSolution& solution) {
-  const auto& [displacement, force] = solution.state;
+  const auto& [displacement, force, kept] = solution.state;
   ContactResultants resultants = {};
   resultants.loads = loads_of(problem, force);
   Profile profile = {{}, problem.gaps(displacement), problem.pressures(force)};

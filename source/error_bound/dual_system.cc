@@ -4,6 +4,7 @@
 #include "rollwave/error_bound/dual_cell_matrix.h"
 #include "rollwave/mesh/line_elements.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/solver/system_matrix.h"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe.h>
@@ -177,6 +178,7 @@ DualSystem::DualSystem(const RingSpace& space, const Scene& scene, RunStatistics
     if (cell->is_locally_owned())
       matrix.add(dofs.of(cell), cell_matrix.on(cell));
   factor = matrix.factorise(statistics);
+  condensed = std::make_unique<CondensedSystem>(*factor, space.communicator());
 }
 
 FieldVector DualSystem::stress_function(const Scene& scene,
@@ -199,7 +201,9 @@ FieldVector DualSystem::stress_function(const Scene& scene,
   if (force && !force->is_uniform()) // a function of r does no work on periodic potentials
     force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
   load.compress(VectorOperation::add);
-  FieldVector potential = factor->solve(&load, Vector<double>(), statistics);
+  Vector<double> kept(condensed->kept().size());
+  condensed->solve(std::vector<bool>(kept.size(), false), factor->condense(load, statistics), kept);
+  FieldVector potential = factor->expand(&load, kept, statistics);
   constraints.distribute(potential);
   potential.update_ghost_values();
   return potential;

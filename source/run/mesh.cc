@@ -42,7 +42,7 @@ void require_memory_of_run(const Scene& scene, const MeshOptions& mesh, MPI_Comm
   // degree 1 to 4, and 2200 of degree 8. The factor's part grows like their logarithm.
   constexpr double bytes_per_unknown = 1000;
   const double unknowns = count_unknowns(mesh), nodes = count_contact_nodes(scene, mesh);
-  require_dense_memory(nodes, communicator);
+  require_dense_memory(nodes / count_processes(communicator), communicator);
   require_memory(bytes_per_unknown * unknowns / count_processes(communicator),
                  "a run with " + rounded(unknowns, 15) + " unknowns", communicator);
 }

@@ -3,6 +3,7 @@
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/errors.h"
 #include "rollwave/base/interrupt.h"
+#include "rollwave/base/mpi_processes.h"
 #include "rollwave/base/text.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
@@ -24,7 +25,7 @@ void check_simulation(const Scene& scene, const RunOptions& options) {
   check_mesh_size(options.mesh);
   constexpr double most_nodes = 20000; // a dense factorisation takes some minutes
   const double nodes = count_contact_nodes(scene, options.mesh);
-  if (nodes > most_nodes)
+  if (nodes > most_nodes && is_serial(MPI_COMM_WORLD)) // of several, each has its own
     throw BadValue("Mesh",
                    options.mesh.global_refinements > 0 ? "Global refinements" : "Angular cells",
                    "about " + rounded(nodes, 6) + " nodes would lie in the zone of contact, and " +

@@ -29,7 +29,7 @@ double relative(double part, double whole) {
 Residuals measure_residuals(const ContactBoundary& boundary, const ContactProblem& problem,
                             const ContactSolution& solution, FieldVector stiffness_times_u,
                             double round_off, const FieldVector* load) {
-  const auto& [displacement, force] = solution.state;
+  const auto& [displacement, force, kept] = solution.state;
   FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
     imbalance -= *load;
@@ -131,8 +131,7 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
   }
   {
     const RunStatistics::Phase phase(statistics, "back-substitution");
-    solution.displacement = system.factor->expand(
-        f, equations.complete(solution.contact.state.displacement, statistics), statistics);
+    solution.displacement = expand(system, load, solution.contact.state.kept, statistics);
   }
   const RunStatistics::Phase phase(statistics, "measurement");
   solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),

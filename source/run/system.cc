@@ -5,13 +5,13 @@
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/scene/scene.h"
+#include "rollwave/solver/assembly.h"
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <new>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,20 +20,6 @@ namespace rollwave {
 using namespace dealii;
 
 namespace {
-
-/// @throws NotEnoughMemory, on one process also in place of std::bad_alloc and deal.II's
-/// ExcOutOfMemory. Of several processes one may be short of memory alone, which ends the program.
-std::unique_ptr<const StiffnessFactor> make_factor(const ContactBoundary& boundary,
-                                                   const Scene& scene, RunStatistics& statistics) {
-  if (!is_serial(boundary.space().communicator()))
-    return std::make_unique<StiffnessFactor>(boundary, scene, statistics);
-  try {
-    return std::make_unique<StiffnessFactor>(boundary, scene, statistics);
-  } catch (const std::bad_alloc&) {
-  } catch (const ExcOutOfMemory&) { // by the vectors of deal.II
-  }
-  throw NotEnoughMemory("the factor needs more memory than there is");
-}
 
 /// The squared l2 norm, which may overflow, unlike FieldVector::norm_sqr().
 double sum_of_squares(const FieldVector& field) {
@@ -52,12 +38,24 @@ void require_finite(double number, const std::string& what) {
 
 System make_system(const RingSpace& space, const Scene& scene,
                    const std::pair<double, double>& zone, RunStatistics& statistics) {
-  const ContactBoundary boundary(space, zone);
-  require_dense_memory(boundary.size(), space.communicator());
-  auto factor = make_factor(boundary, scene, statistics);
-  const RunStatistics::Phase phase(statistics, "factorisation");
-  auto condensed = std::make_unique<const CondensedSystem>(factor->schur_factor());
-  return {boundary, std::move(factor), std::move(condensed)};
+  System system = {ContactBoundary(space, zone), {}, {}};
+  const auto make = [&] {
+    std::optional<SystemMatrix> matrix;
+    {
+      const RunStatistics::Phase phase(statistics, "assembly");
+      matrix.emplace(assemble_stiffness(space, scene, system.boundary.contact_nodes()));
+      ++statistics.stiffness_assemblies;
+    }
+    const RunStatistics::Phase phase(statistics, "factorisation");
+    system.factor = matrix->factorise(statistics);
+    system.condensed = std::make_unique<CondensedSystem>(*system.factor, space.communicator());
+  };
+  // Of several processes one may be short of memory alone, which ends the program.
+  if (is_serial(space.communicator()))
+    do_on_all(space.communicator(), make);
+  else
+    make();
+  return system;
 }
 
 std::unique_ptr<const Load> make_load(const System& system, const Scene& scene,
@@ -73,6 +71,15 @@ std::unique_ptr<const Load> make_load(const System& system, const Scene& scene,
   require_finite(sum_of_squares(vector), "the load");
   Vector<double> condensed = system.factor->condense(vector, statistics);
   return std::make_unique<Load>(Load{std::move(integral), std::move(vector), std::move(condensed)});
+}
+
+FieldVector expand(const System& system, const Load* load, const Vector<double>& kept,
+                   RunStatistics& statistics) {
+  FieldVector u = system.factor->expand(load ? &load->vector : nullptr, kept, statistics);
+  require_finite(sum_of_squares(u), "the displacement");
+  system.boundary.space().constraints().distribute(u);
+  u.update_ghost_values();
+  return u;
 }
 
 } // namespace rollwave

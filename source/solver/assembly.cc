@@ -78,7 +78,9 @@ FullMatrix<double> stiffness_of_cell(const FEValues<2>& values, const Scene& sce
 
 } // namespace
 
-void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCellMatrix& add) {
+SystemMatrix assemble_stiffness(const RingSpace& space, const Scene& scene,
+                                const std::vector<SurfaceNode>& contact_nodes) {
+  SystemMatrix matrix(space, space.constraints(), contact_nodes);
   RulesOfCells rules(space);
   // Cells of one radial interval and one length along z have the same matrix, made once.
   std::map<std::tuple<double, double, double>, FullMatrix<double>> known;
@@ -95,8 +97,9 @@ void assemble_stiffness(const RingSpace& space, const Scene& scene, const AddCel
     if (is_new)
       entry->second = stiffness_of_cell(rules.reinit(cell), scene);
     cell->get_dof_indices(dofs);
-    add(dofs, entry->second);
+    matrix.add(dofs, entry->second);
   }
+  return matrix;
 }
 
 } // namespace rollwave

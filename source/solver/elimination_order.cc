@@ -1,16 +1,17 @@
 #include "rollwave/solver/elimination_order.h"
 
+#include "rollwave/base/mpi_processes.h"
+
 #include <deal.II/base/mpi.h>
 
-#include <set>
+#include <cmath>
+#include <map>
 
 namespace rollwave {
 
 using namespace dealii;
 
 namespace {
-
-using Dofs = std::vector<types::global_dof_index>;
 
 /// For each local index, whether values on the cells of this process depend on this unknown.
 std::vector<bool> find_unknowns_of_cells(const RingSpace& space,
@@ -27,19 +28,31 @@ std::vector<bool> find_unknowns_of_cells(const RingSpace& space,
   return is_of_cells;
 }
 
-/// The unknowns on which cells of several processes depend, in the same order on all processes.
-Dofs find_interface(const RingSpace& space, const std::vector<bool>& is_of_cells) {
-  FieldVector n_processes = space.make_field();
+/// Numbers the unknowns on which cells of several processes depend: those of each process one after
+/// the other. Sets KeptUnknowns::own_rows.
+/// @return for the interface of this process the local index of each number
+std::map<types::global_dof_index, unsigned int>
+number_interface(const RingSpace& space, const std::vector<bool>& is_of_cells, IndexSet& own_rows) {
+  FieldVector number = space.make_field(); // of processes, then in the interface from 1 on
+  const unsigned int n_owned = number.locally_owned_size();
   for (unsigned int i = 0; i < is_of_cells.size(); ++i)
-    n_processes.local_element(i) = is_of_cells[i];
-  n_processes.compress(VectorOperation::add);
-  Dofs own, interface;
-  for (const auto dof : space.dof_handler().locally_owned_dofs())
-    if (n_processes(dof) > 1)
-      own.push_back(dof);
-  for (const Dofs& dofs : Utilities::MPI::all_gather(space.communicator(), own))
-    interface.insert(interface.end(), dofs.begin(), dofs.end());
-  return interface;
+    number.local_element(i) = is_of_cells[i];
+  number.compress(VectorOperation::add);
+  types::global_dof_index n_own = 0;
+  for (unsigned int i = 0; i < n_owned; ++i)
+    number.local_element(i) = number.local_element(i) > 1 ? ++n_own : 0;
+  own_rows = Utilities::MPI::create_ascending_partitioning(
+      space.communicator(), n_own)[process_number(space.communicator())];
+  const auto first = n_own > 0 ? own_rows.nth_index_in_set(0) : 0;
+  for (unsigned int i = 0; i < n_owned; ++i)
+    if (number.local_element(i) > 0)
+      number.local_element(i) += first;
+  number.update_ghost_values();
+  std::map<types::global_dof_index, unsigned int> indices;
+  for (unsigned int i = 0; i < is_of_cells.size(); ++i)
+    if (is_of_cells[i] && number.local_element(i) > 0)
+      indices[std::lround(number.local_element(i)) - 1] = i;
+  return indices;
 }
 
 } // namespace
@@ -49,30 +62,38 @@ EliminationOrder::EliminationOrder(const RingSpace& space,
                                    const std::vector<SurfaceNode>& contact_nodes)
     : unknown_of_dof(space.n_local(), -1) {
   const std::vector<bool> is_of_cells = find_unknowns_of_cells(space, constraints);
-  std::set<types::global_dof_index> contact_dofs;
-  for (const SurfaceNode& node : contact_nodes)
-    contact_dofs.insert(node.dof);
-  Dofs kept_by_all;
-  for (const auto dof : find_interface(space, is_of_cells))
-    if (contact_dofs.count(dof) == 0)
-      kept_by_all.push_back(dof);
-  for (const SurfaceNode& node : contact_nodes)
-    kept_by_all.push_back(node.dof);
-  n_kept_by_all = kept_by_all.size();
+  std::map<types::global_dof_index, unsigned int> interface; // local indices by numbers
+  if (!is_serial(space.communicator()))
+    interface = number_interface(space, is_of_cells, kept.own_rows);
 
-  constexpr int none = -1, last = -2;
-  for (int k = 0; k < n_kept_by_all; ++k)
-    if (const auto dof = kept_by_all[k];
-        space.relevant_dofs().is_element(dof) && is_of_cells[space.local_index(dof)]) {
-      unknown_of_dof[space.local_index(dof)] = last;
-      kept.push_back(k);
+  std::vector<unsigned int> last; // local indices
+  std::vector<int> contact_node(space.n_local(), -1);
+  constexpr int none = -1, is_last = -2;
+  for (const auto& [row, i] : interface)
+    unknown_of_dof[i] = is_last;
+  for (unsigned int node = 0; node < contact_nodes.size(); ++node) {
+    if (!space.relevant_dofs().is_element(contact_nodes[node].dof))
+      continue;
+    const unsigned int i = space.local_index(contact_nodes[node].dof);
+    contact_node[i] = node;
+    if (is_of_cells[i] && unknown_of_dof[i] == none) {
+      unknown_of_dof[i] = is_last;
+      last.push_back(i);
     }
+  }
+  kept.n_inner = last.size();
+  for (const auto& [row, i] : interface) {
+    last.push_back(i);
+    kept.rows.push_back(row);
+  }
   for (const auto dof : space.elimination_order())
     if (int& unknown = unknown_of_dof[space.local_index(dof)];
         unknown == none && !constraints.is_constrained(dof))
       unknown = n_unknowns++;
-  for (const int k : kept)
-    unknown_of_dof[space.local_index(kept_by_all[k])] = n_unknowns++;
+  for (const unsigned int i : last) {
+    unknown_of_dof[i] = n_unknowns++;
+    kept.contact_nodes.push_back(contact_node[i]);
+  }
 }
 
 } // namespace rollwave

@@ -4,6 +4,7 @@
 #include "rollwave/error_bound/force_integral.h"
 #include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/ring_space.h"
+#include "rollwave/solver/condensed_system.h"
 #include "rollwave/solver/sparse_factor.h"
 
 #include <memory>
@@ -47,6 +48,7 @@ private:
   const RingSpace& space;
   const RadialShapesOfMesh radial;
   std::unique_ptr<const SparseFactor> factor;
+  std::unique_ptr<CondensedSystem> condensed; ///< of the unknowns between processes
 };
 
 } // namespace rollwave

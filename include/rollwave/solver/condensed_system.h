@@ -1,57 +1,81 @@
 #pragma once
 
+#include "rollwave/solver/elimination_order.h"
+
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/lac/vector.h>
 
 #include <mpi.h>
 
+#include <memory>
 #include <vector>
 
 namespace rollwave {
 
-class RunStatistics;
-
-/// Displacements and forces of contact nodes.
-struct ContactState {
-  dealii::Vector<double> displacement; ///< u_i, a length
-
-  /// N_i = f_i - (K u)_i, a force: positive where the road presses. Over the node's weight it is
-  /// the contact pressure.
-  dealii::Vector<double> force;
-};
+class InterfaceSolver;
+class SparseFactor;
 
 /**
- * The dense problem that StiffnessFactor leaves on the contact nodes of a mesh,
+ * The linear system that the SparseFactors leave on the unknowns that the processes keep,
  *
- *     S u = g - N.
+ *     S u = r,     S = sum S_p,     r = sum r_p.
  *
- * At each node either u_i (pinned) or N_i is given. All processes have all of it.
+ * Values are given at some of them, and each process has S_p and r_p. By LAPACK it eliminates the
+ * unknowns F that it has alone and that are not given, which leaves on the interface g
+ *
+ *     T_p = S_gg - S_gF S_FF^-1 S_Fg,
+ *
+ * whose sum is the matrix of an InterfaceSolver. On one process there is no interface.
  */
 class CondensedSystem {
 public:
-  /// @param schur_factor the lower triangular L with L L^T = S
-  explicit CondensedSystem(const dealii::LAPACKFullMatrix<double>& schur_factor);
-  CondensedSystem(const CondensedSystem&) = delete; // deal.II's copies forget that L is triangular
+  /// All processes must call it. @throws NotEnoughMemory, NotSolved
+  CondensedSystem(const SparseFactor& factor, MPI_Comm communicator);
+
+  /// The system of one process with S = L L^T. @param factor L, lower triangular
+  explicit CondensedSystem(const dealii::LAPACKFullMatrix<double>& factor);
+
+  ~CondensedSystem();
+  CondensedSystem(const CondensedSystem&) = delete;
   CondensedSystem& operator=(const CondensedSystem&) = delete;
 
-  unsigned int size() const { return schur.m(); }
+  const KeptUnknowns& kept() const { return unknowns; }
+  MPI_Comm communicator() const { return processes; }
 
-  /// Sets N_i on the pinned nodes and u_i on the others. If some nodes are pinned and some are
-  /// free, this needs a factorisation of the free block of S.
-  /// @param g load, without entries for none
-  /// @throws NotSolved where that block is not positive definite in rounded arithmetic
-  void solve(const std::vector<bool>& pinned, const dealii::Vector<double>& g, ContactState& state,
-             RunStatistics& statistics) const;
+  /// Sets u where it is not given. All processes must call it. It keeps the factor of the unknowns
+  /// given last, so that further right-hand sides need no other.
+  /// @param load r_p @return false where the same unknowns were given last
+  /// @throws NotSolved where the matrix is not positive definite in rounded arithmetic
+  bool solve(const std::vector<bool>& is_given, const dealii::Vector<double>& load,
+             dealii::Vector<double>& u);
 
-  /// S^-1 N
-  dealii::Vector<double> apply_compliance(dealii::Vector<double> force) const;
+  /// r_p - S_p u
+  dealii::Vector<double> residual(const dealii::Vector<double>& load,
+                                  const dealii::Vector<double>& u) const;
 
 private:
-  dealii::LAPACKFullMatrix<double> factor; ///< L
-  dealii::LAPACKFullMatrix<double> schur;  ///< S
+  struct Factor;
+
+  CondensedSystem(KeptUnknowns unknowns, const dealii::LAPACKFullMatrix<double>& factor,
+                  const dealii::Vector<double>& shift, MPI_Comm communicator);
+
+  std::unique_ptr<const Factor> factorise(const std::vector<bool>& is_given) const;
+  dealii::LAPACKFullMatrix<double> matrix_of_interface() const;
+  void solve_inner(const dealii::Vector<double>& load, dealii::Vector<double>& u) const;
+
+  const KeptUnknowns unknowns;
+  const MPI_Comm processes;
+  dealii::LAPACKFullMatrix<double> schur;       ///< S_p
+  dealii::LAPACKFullMatrix<double> inner_lower; ///< L with S_FF = L L^T where nothing is given
+  std::unique_ptr<InterfaceSolver> interface;   ///< null where there is none
+  std::unique_ptr<const Factor> last;           ///< of the unknowns given last
 };
 
-/// Called by all processes before the dense problem of @p n_nodes contact nodes is made.
+/// The memory in bytes that one process needs for the dense matrices of the unknowns it keeps, of
+/// which @p n_interface lie between processes.
+double dense_bytes(double n_kept, double n_interface);
+
+/// Called by all processes before anything of @p n_nodes contact nodes of each is made.
 /// @throws NotEnoughMemory on all processes if they have less than it takes
 void require_dense_memory(double n_nodes, MPI_Comm communicator);
 
