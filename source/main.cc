@@ -5,15 +5,19 @@
 #include "rollwave/parameters/command_line.h"
 #include "rollwave/parameters/parameters.h"
 #include "rollwave/program.h"
+#include "rollwave/run/attempt.h"
 #include "rollwave/run/quantity_table.h"
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <sstream>
+#include <thread>
 
 using namespace rollwave;
 
@@ -59,23 +63,24 @@ int main(int argc, char* argv[]) {
   const bool has_memory = take_blas_buffer();
   install_signal_handlers();
   std::optional<dealii::Utilities::MPI::MPI_InitFinalize> mpi;
-  bool is_first = true;
+  unsigned int rank = 0;
   if (is_launched_by_mpi()) {
     int n_arguments = 1; // PETSc starts with MPI and would reject the others
     mpi.emplace(n_arguments, argv, /*max_num_threads=*/1);
-    is_first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    install_signal_handlers(is_first); // PETSc has replaced them
+    rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    install_signal_handlers(rank == 0); // PETSc has replaced them
   }
-  // Reports an error and ends all processes. Rank 0 does so for an error that all processes have,
-  // or that rank 0 has alone because it writes the files; the others then wait in MPI_Finalize.
-  const auto fail = [&](const std::string& message, int code, bool is_of_one_process = false) {
-    if (is_first || is_of_one_process) {
-      std::cout << std::flush;
-      // In one piece, since launchers mix what processes write.
-      std::cerr << "rollwave: " + message + '\n' << std::flush;
-      if (mpi)
-        MPI_Abort(MPI_COMM_WORLD, code);
-    }
+  // Reports an error and ends all processes. Rank 0 does so at once. Another one gives it time for
+  // that, since all processes may have the error. If none has ended the program by then, it has the
+  // error alone, and the others wait for its messages.
+  const auto fail = [&](const std::string& message, int code) {
+    if (rank > 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5000 + 200 * rank));
+    std::cout << std::flush;
+    // In one piece, since launchers mix what processes write.
+    std::cerr << "rollwave: " + message + '\n' << std::flush;
+    if (mpi)
+      MPI_Abort(MPI_COMM_WORLD, code);
     return code;
   };
   try {
@@ -83,8 +88,8 @@ int main(int argc, char* argv[]) {
       throw NotSolved("not enough memory; raise the limit of the address space (ulimit -v)");
     std::ostream silence(nullptr);
     run_action(argv[0], {argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
-               is_first ? std::cout : silence);
-    if (is_first && !(std::cout << std::flush))
+               rank == 0 ? std::cout : silence);
+    if (rank == 0 && !(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");
     return 0;
   } catch (const BadInput& error) {
@@ -96,8 +101,10 @@ int main(int argc, char* argv[]) {
   } catch (const NotSolved& error) {
     return fail(std::string("not solved: ") + error.what(), 2);
   } catch (const std::bad_alloc&) {
-    return fail(std::string("not solved: ") + NotEnoughMemory().what(), 2, true);
+    return fail(std::string("not solved: ") + NotEnoughMemory().what(), 2);
+  } catch (const dealii::ExcOutOfMemory&) { // by the vectors of deal.II
+    return fail(std::string("not solved: ") + NotEnoughMemory().what(), 2);
   } catch (const std::exception& error) { // of a library
-    return fail(std::string("not solved: ") + error.what(), 2, true);
+    return fail("not solved: " + reason_of(error), 2);
   }
 }

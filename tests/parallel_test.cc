@@ -216,6 +216,26 @@ TEST_F(Processes, EndTogetherWithoutMemory) {
 }
 #endif
 
+#ifndef __SANITIZE_ADDRESS__
+// One process alone, which does not write the files, while the others wait for its messages.
+TEST_F(Processes, EndTogetherWhereOneHasNoMemory) {
+  for (const int kibibytes : {760000, 840000, 900000, 1000000}) {
+    std::ofstream(directory / "rank.sh")
+        << "[ $OMPI_COMM_WORLD_RANK = 1 ] && ulimit -v " << kibibytes << "\nexec $rollwave "
+        << scene << " --set Mesh/Degree=2 --set 'Mesh/Radial cells=80' --set 'Mesh/Angular "
+        << "cells=960'\n";
+    const Outcome outcome = shell("ulimit -c 0; timeout 60 " + on_processes(3) + "sh '" +
+                                  (directory / "rank.sh").string() + "'");
+    EXPECT_FALSE(has("summary.json"));
+    if (outcome.text.find("Abort: ") != std::string::npos) // by p4est
+      continue;
+    EXPECT_EQ(outcome.exit_code, 2) << kibibytes << outcome.text; // 124: still running
+    EXPECT_NE(outcome.text.find("rollwave: not solved: "), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find("memory"), std::string::npos) << outcome.text;
+  }
+}
+#endif
+
 class StudyOnProcesses : public Processes {
 protected:
   /// Expects the rows of study.csv to have the same figures, where these do not depend on the

@@ -13,6 +13,12 @@ void WrittenFiles::write(const std::filesystem::path& path, const std::string& c
   files.push_back(path);
 }
 
+void WrittenFiles::write_parts(const std::filesystem::path& path, const std::string& part,
+                               MPI_Comm communicator) {
+  n_bytes += write_file_in_parts(path, part, communicator);
+  files.push_back(path);
+}
+
 void WrittenFiles::note_older_files(const std::vector<std::filesystem::path>& older) {
   std::vector<std::string> names;
   for (const std::filesystem::path& file : older)

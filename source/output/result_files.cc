@@ -79,10 +79,10 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
       written.write(directory / "road.vtu", road_vtu(scene));
     }
     if (parameters.wants(OutputFile::solution)) {
-      const std::string field = solution_vtu(solution, parameters.output.cells);
       try {
-        if (is_first)
-          written.write(directory / "solution.vtu", field);
+        written.write_parts(directory / "solution.vtu",
+                            solution_vtu(solution, parameters.output.cells),
+                            solution.space().communicator());
       } catch (const NotWritten&) {
         failure = std::current_exception(); // the largest file by far: others may have room
       }

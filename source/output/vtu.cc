@@ -4,7 +4,6 @@
 #include "rollwave/scene/units.h"
 
 #include <deal.II/base/data_out_base.h>
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/reference_cell.h>
@@ -127,21 +126,17 @@ void write_field_data(std::ostream& out, const Solution& solution) {
 
 std::string solution_vtu(const Solution& solution, CellKind kind) {
   const MPI_Comm communicator = solution.space().communicator();
+  const unsigned int rank = process_number(communicator);
   const DataOutBase::VtkFlags flags = vtk_flags(solution, kind);
-  const std::string own = piece(solution, flags);
-  std::ostringstream file;
-  DataOutBase::write_vtu_header(file, flags);
-  write_field_data(file, solution);
-  if (is_serial(communicator))
-    file << own;
-  else
-    for (unsigned int rank = 0; rank < count_processes(communicator); ++rank) {
-      const std::string of_rank = Utilities::MPI::broadcast(communicator, own, rank);
-      if (process_number(communicator) == 0)
-        file << of_rank;
-    }
-  DataOutBase::write_vtu_footer(file);
-  return file.str();
+  std::ostringstream part;
+  if (rank == 0) {
+    DataOutBase::write_vtu_header(part, flags);
+    write_field_data(part, solution);
+  }
+  part << piece(solution, flags);
+  if (rank + 1 == count_processes(communicator))
+    DataOutBase::write_vtu_footer(part);
+  return part.str();
 }
 
 } // namespace rollwave

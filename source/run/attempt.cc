@@ -16,7 +16,8 @@ namespace rollwave {
 std::string reason_of(const std::exception& failure) {
   if (const auto* const shortage = dynamic_cast<const NotEnoughMemory*>(&failure))
     return shortage->reason;
-  if (dynamic_cast<const std::bad_alloc*>(&failure))
+  if (dynamic_cast<const std::bad_alloc*>(&failure) ||
+      dynamic_cast<const dealii::ExcOutOfMemory*>(&failure))
     return NotEnoughMemory().reason;
   const auto* const of_library = dynamic_cast<const dealii::ExceptionBase*>(&failure);
   if (!of_library)

@@ -158,6 +158,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     MeshSolution solution = solve_on_mesh(system, load.get(), scene, options.contact, pressure,
                                           statistics, progress.contact_step_ended);
     system.factor.reset(); // the certificate needs its memory
+    system.condensed->free_factors();
     std::unique_ptr<const DualSystem> dual;
     std::optional<Certificate> certificate =
         certify_solution(options, load.get(), dual, solution, statistics);

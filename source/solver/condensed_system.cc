@@ -72,8 +72,6 @@ CondensedSystem::CondensedSystem(KeptUnknowns kept, const LAPACKFullMatrix<doubl
   for (unsigned int k = 0; k < shift.size(); ++k)
     schur(unknowns.n_inner + k, unknowns.n_inner + k) -= shift(k);
   copy_triangle(factor, unknowns.n_inner, inner_lower);
-  if (unknowns.own_rows.size() > 0) // the same on all processes
-    interface = std::make_unique<InterfaceSolver>(unknowns.rows, unknowns.own_rows, processes);
 }
 
 CondensedSystem::~CondensedSystem() = default;
@@ -134,9 +132,15 @@ void CondensedSystem::solve_inner(const Vector<double>& load, Vector<double>& u)
     u(free[k]) = solution(k);
 }
 
+void CondensedSystem::free_factors() {
+  last.reset();
+  interface.reset();
+}
+
 bool CondensedSystem::solve(const std::vector<bool>& is_given, const Vector<double>& load,
                             Vector<double>& u) {
-  // The matrix of the interface depends on what is given on any process.
+  const bool has_interface = unknowns.own_rows.size() > 0; // the same on all processes
+  // The matrix of the interface depends on what is given on any of them.
   const bool is_own_known = last && last->is_given == is_given,
              is_known = holds_on_all(processes, is_own_known);
   if (!is_known) {
@@ -146,7 +150,9 @@ bool CondensedSystem::solve(const std::vector<bool>& is_given, const Vector<doub
       last.reset(); // frees its memory first
       last = factorise(is_given);
     });
-    if (interface)
+    if (has_interface && !interface)
+      interface = std::make_unique<InterfaceSolver>(unknowns.rows, unknowns.own_rows, processes);
+    if (has_interface)
       interface->factorise(matrix_of_interface(),
                            {is_given.begin() + unknowns.n_inner, is_given.end()});
   }
@@ -154,7 +160,7 @@ bool CondensedSystem::solve(const std::vector<bool>& is_given, const Vector<doub
     if (!is_given[k])
       u(k) = 0;
   solve_inner(load, u);
-  if (interface) {
+  if (has_interface) {
     const unsigned int first = unknowns.n_inner;
     const Vector<double> left = residual(load, u);
     Vector<double> rhs(unknowns.rows.size());

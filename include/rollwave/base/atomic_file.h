@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -40,5 +42,11 @@ std::string read_file(const std::filesystem::path& path);
 
 /// Writes a file and returns its size in bytes. @throws NotWritten.
 unsigned long write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Writes a file of which each process has a part, in the order of their ranks. Parts go to rank 0
+/// in small pieces. All processes must call it.
+/// @return on rank 0 its size in bytes @throws NotWritten on all processes
+unsigned long write_file_in_parts(const std::filesystem::path& path, const std::string& part,
+                                  MPI_Comm communicator);
 
 } // namespace rollwave

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -14,6 +16,10 @@ struct WrittenFiles {
 
   /// Writes a file. @throws NotWritten.
   void write(const std::filesystem::path& path, const std::string& content);
+
+  /// Writes a file of which each process has a part, see write_file_in_parts(). @throws NotWritten on all of them
+  void write_parts(const std::filesystem::path& path, const std::string& part,
+                   MPI_Comm communicator);
 
   /// Adds a remark that names those of the files @p older that were not written.
   void note_older_files(const std::vector<std::filesystem::path>& older);

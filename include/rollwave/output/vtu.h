@@ -14,7 +14,7 @@ namespace rollwave {
  * there is a certificate: `certified_error`, eta of the cell. Of the whole: `omega`, `c`, `F`.
  * Elements of degree p become VTK's Lagrange cells with (p + 1)^2 nodes, or p^2 linear cells.
  *
- * All processes must call it. Rank 0 gets the file, with one piece for each process that has cells.
+ * Each process gets its part of the file, in the order of their ranks: a piece if it has cells.
  */
 std::string solution_vtu(const Solution& solution, CellKind kind);
 

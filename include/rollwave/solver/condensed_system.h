@@ -49,6 +49,9 @@ public:
   bool solve(const std::vector<bool>& is_given, const dealii::Vector<double>& load,
              dealii::Vector<double>& u);
 
+  /// Frees the memory of factors, which solve() makes again when they are needed.
+  void free_factors();
+
   /// r_p - S_p u
   dealii::Vector<double> residual(const dealii::Vector<double>& load,
                                   const dealii::Vector<double>& u) const;
@@ -67,7 +70,7 @@ private:
   const MPI_Comm processes;
   dealii::LAPACKFullMatrix<double> schur;       ///< S_p
   dealii::LAPACKFullMatrix<double> inner_lower; ///< L with S_FF = L L^T where nothing is given
-  std::unique_ptr<InterfaceSolver> interface;   ///< null where there is none
+  std::unique_ptr<InterfaceSolver> interface;   ///< made by solve() where there is an interface
   std::unique_ptr<const Factor> last;           ///< of the unknowns given last
 };
 
