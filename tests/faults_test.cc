@@ -325,6 +325,19 @@ TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
     }
   }
 }
+
+// The dense matrices of some 4000 contact nodes do not fit.
+TEST_F(Faults, DenseProblemWithoutMemoryIsOneMessage) {
+  for (const char* const kibibytes : {"700000", "900000"}) {
+    const Outcome outcome =
+        shell(std::string("ulimit -v ") + kibibytes + "; timeout 60 $rollwave " + scene +
+              " --set 'Mesh/Radial cells=1' --set 'Mesh/Angular cells=20000'");
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_NE(outcome.text.find("memory"), std::string::npos) << outcome.text;
+    EXPECT_LE(lines_of(outcome.text.substr(outcome.text.find("rollwave: not solved"))).size(), 2u)
+        << outcome.text;
+  }
+}
 #endif
 
 TEST_F(Faults, FullDiskLeavesWhatFitsComplete) {
