@@ -1,7 +1,5 @@
 #include "rollwave/study/study.h"
 
-#include "rollwave/run/quantities.h"
-
 #include <algorithm>
 
 namespace rollwave {
@@ -24,7 +22,6 @@ std::optional<double> Study::value(unsigned int run, const std::string& name) co
   if (runs[run])
     if (const auto known = runs[run]->values.find(name); known != runs[run]->values.end())
       return known->second;
-  result_quantity(name); // throws for another name
   return {};
 }
 

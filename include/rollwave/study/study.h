@@ -28,7 +28,6 @@ struct Study {
   std::size_t n_ended() const;
 
   /// The value of one of result_quantities() or of `published_steps`, where it is known.
-  /// @throws std::out_of_range for another name
   std::optional<double> value(unsigned int run, const std::string& name) const;
 
   /// For the names of units: values are in the user's units already.
