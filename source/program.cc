@@ -47,9 +47,9 @@ void run_and_report_study(Study& study, const Parameters& parameters,
   if (study.part)
     report_part(out, study, n_made, program, parameters.output.directory);
   else if (process_number(communicator) == 0) {
-    out << '\n' << table_as_text(study);
-    print_study_notes(out, study);
-    report_files(out, write_study(parameters, study, older));
+    const std::string text = study_text(study);
+    out << '\n' << text;
+    report_files(out, write_study(parameters, study, text, older));
   }
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);

@@ -156,7 +156,7 @@ protected:
     Study study = plan_study(all, part);
     const unsigned int n_made = run_study(study, all, out);
     if (!part)
-      write_study(all, study, {});
+      write_study(all, study, study_text(study), {});
     return study.n_ended() - n_made;
   }
 

@@ -61,17 +61,14 @@ std::vector<std::string> study_file_names(const Parameters& parameters) {
   return names;
 }
 
-WrittenFiles write_study(const Parameters& parameters, const Study& study,
+WrittenFiles write_study(const Parameters& parameters, const Study& study, const std::string& text,
                          std::vector<std::filesystem::path> older) {
   const std::filesystem::path directory = parameters.output.directory;
   WrittenFiles written;
   written.write(directory / "study.csv", study_csv(study));
   written.write(directory / "study-profiles.csv", profiles_csv(study));
   written.files.push_back(directory / "parameters.prm");
-  std::ostringstream text;
-  text << table_as_text(study);
-  print_study_notes(text, study);
-  written.write(directory / "study.txt", text.str());
+  written.write(directory / "study.txt", text);
   written.write(directory / "study.tex", table_as_tex(study));
   if (study.files.kinds.count(OutputFile::solution) > 0)
     written.write(directory / "study.pvd", pvd_of(study));

@@ -102,10 +102,6 @@ std::string line_of_run(const Study& study, unsigned int run) {
   return line.str();
 }
 
-std::string table_as_text(const Study& study) {
-  return table_text(make_table(study, [](const std::string& plain) { return plain; }));
-}
-
 std::string table_as_tex(const Study& study) {
   std::ostringstream table;
   make_table(study, in_tex).write_tex(table, /*with_header=*/false);
@@ -115,7 +111,9 @@ std::string table_as_tex(const Study& study) {
          table.str() + "\\end{document}\n";
 }
 
-void print_study_notes(std::ostream& out, const Study& study) {
+std::string study_text(const Study& study) {
+  std::ostringstream out;
+  out << table_text(make_table(study, [](const std::string& plain) { return plain; }));
   std::map<unsigned int, std::string> failures, shortfalls, remarks;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (const auto& made = study.runs[run]) {
@@ -142,6 +140,7 @@ void print_study_notes(std::ostream& out, const Study& study) {
   print_first(out, "Target not reached", shortfalls, study.runs.size());
   print_first(out, "Note", remarks, study.runs.size());
   report_orders(out, study);
+  return out.str();
 }
 
 } // namespace rollwave
