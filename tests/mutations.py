@@ -62,7 +62,7 @@ MUTATIONS = [  # file, what stands there, the fault
     ('solver/condensed_system', 'matrix(i, j) = -schur', 'matrix(i, j) = schur'),
     ('solver/condensed_system', 'holds_on_all(processes, is_own_known)', 'is_own_known'),
     ('solver/sparse_factor', 'products[i] -= added(k)', 'products[i] -= 0'),
-    ('solver/interface_solver', 'is_given[i] || is_given[j]', 'is_given[i]'),
+    ('solver/interface_solver', '!is_given[i] && !is_given[j]', '!is_given[i]'),
     ('solver/elimination_order', 'number.local_element(i) > 1', 'number.local_element(i) > 2'),
     ('solver/contact_equations', 'load(k) -= state.force', 'load(k) += state.force'),
     ('solver/contact_equations', 'else if (kept.is_own(k))', 'else'),

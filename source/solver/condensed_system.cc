@@ -153,8 +153,8 @@ bool CondensedSystem::solve(const std::vector<bool>& is_given, const Vector<doub
     if (has_interface && !interface)
       interface = std::make_unique<InterfaceSolver>(unknowns.rows, unknowns.own_rows, processes);
     if (has_interface)
-      interface->factorise(matrix_of_interface(),
-                           {is_given.begin() + unknowns.n_inner, is_given.end()});
+      interface->set_matrix(matrix_of_interface(),
+                            {is_given.begin() + unknowns.n_inner, is_given.end()});
   }
   for (unsigned int k = 0; k < u.size(); ++k)
     if (!is_given[k])
@@ -187,8 +187,8 @@ Vector<double> CondensedSystem::residual(const Vector<double>& load,
 }
 
 double dense_bytes(double n_kept, double n_interface) {
-  constexpr double n_matrices = 3;             // L, S, and a block of S
-  constexpr double n_matrices_of_trilinos = 8; // T_p, T, its triplets and its factor
+  constexpr double n_matrices = 3;              // L, S, and a block of S
+  constexpr double n_matrices_of_trilinos = 14; // T_p, T, its triplets and its factor, as measured
   return sizeof(double) *
          (n_matrices * n_kept * n_kept + n_matrices_of_trilinos * n_interface * n_interface);
 }

@@ -3,6 +3,8 @@
 #include "rollwave/base/errors.h"
 #include "rollwave/base/mpi_processes.h"
 
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <Amesos.h>
@@ -44,16 +46,12 @@ void check(int status, const std::string& step, MPI_Comm communicator) {
 
 InterfaceSolver::InterfaceSolver(const std::vector<types::global_dof_index>& rows,
                                  const IndexSet& own_rows, MPI_Comm communicator)
-    : rows(rows), own_rows(own_rows), communicator(communicator) {
+    : rows(rows), own_rows(own_rows), communicator(communicator), own(rows.size()) {
   IndexSet used_rows(own_rows.size());
   used_rows.add_indices(rows.begin(), rows.end());
   matrix.reinit(make_pattern(rows, own_rows, used_rows, communicator));
-  rhs.reinit(own_rows, communicator);
-  solution.reinit(own_rows, communicator);
-  solution_with_ghosts.reinit(own_rows, used_rows, communicator);
+  with_ghosts.reinit(own_rows, used_rows, communicator);
   problem.SetOperator(const_cast<Epetra_CrsMatrix*>(&matrix.trilinos_matrix()));
-  problem.SetLHS(&solution.trilinos_vector());
-  problem.SetRHS(&rhs.trilinos_vector());
   mumps.reset(Amesos().Create("Amesos_Mumps", problem));
   if (!mumps)
     throw NotSolved("Trilinos has been built without MUMPS, which several processes need");
@@ -63,33 +61,91 @@ InterfaceSolver::InterfaceSolver(const std::vector<types::global_dof_index>& row
   check(mumps->SymbolicFactorization(), "analysis", communicator);
 }
 
-void InterfaceSolver::factorise(const LAPACKFullMatrix<double>& part,
-                                const std::vector<bool>& is_given) {
+void InterfaceSolver::set_matrix(const LAPACKFullMatrix<double>& part,
+                                 const std::vector<bool>& is_given) {
+  for (unsigned int j = 0; j < rows.size(); ++j)
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      own(i, j) = !is_given[i] && !is_given[j]             ? part(i, j)
+                  : i == j && own_rows.is_element(rows[i]) ? 1
+                                                           : 0;
+  if (factor == Factor::of_matrix)
+    factor = Factor::of_earlier_matrix;
+}
+
+void InterfaceSolver::factorise() {
   matrix = 0;
   std::vector<double> values(rows.size());
   for (unsigned int i = 0; i < rows.size(); ++i) {
     for (unsigned int j = 0; j < rows.size(); ++j)
-      values[j] = is_given[i] || is_given[j] ? 0 : part(i, j);
-    if (is_given[i] && own_rows.is_element(rows[i]))
-      values[i] = 1;
+      values[j] = own(i, j);
     matrix.add(rows[i], rows.size(), rows.data(), values.data(), /*elide_zero_values=*/true,
                /*col_indices_are_sorted=*/true);
   }
   matrix.compress(VectorOperation::add);
   check(mumps->NumericFactorization(), "factorisation", communicator);
+  factor = Factor::of_matrix;
 }
 
-Vector<double> InterfaceSolver::solve(const Vector<double>& part) {
-  rhs = 0;
-  for (unsigned int i = 0; i < rows.size(); ++i)
-    rhs(rows[i]) += part(i);
-  rhs.compress(VectorOperation::add);
+void InterfaceSolver::apply_factor(Vector& x, const Vector& b) {
+  problem.SetLHS(&x.trilinos_vector());
+  problem.SetRHS(const_cast<Epetra_MultiVector*>(&b.trilinos_vector()));
   check(mumps->Solve(), "solution", communicator);
-  solution_with_ghosts = solution;
-  Vector<double> of_this_process(rows.size());
+}
+
+dealii::Vector<double> InterfaceSolver::of_this_process(const Vector& x) {
+  with_ghosts = x;
+  dealii::Vector<double> values(rows.size());
   for (unsigned int i = 0; i < rows.size(); ++i)
-    of_this_process(i) = solution_with_ghosts(rows[i]);
-  return of_this_process;
+    values(i) = with_ghosts(rows[i]);
+  return values;
+}
+
+void InterfaceSolver::sum_up(const dealii::Vector<double>& part, Vector& sum) const {
+  sum = 0;
+  for (unsigned int i = 0; i < rows.size(); ++i)
+    sum(rows[i]) += part(i);
+  sum.compress(VectorOperation::add);
+}
+
+/// T x
+void InterfaceSolver::apply(Vector& product, const Vector& x) {
+  const dealii::Vector<double> values = of_this_process(x);
+  dealii::Vector<double> part(rows.size());
+  if (!rows.empty())
+    own.vmult(part, values);
+  sum_up(part, product);
+}
+
+/// @return false where conjugate gradients do not converge soon
+bool InterfaceSolver::iterate(Vector& x, const Vector& b) {
+  struct Matrix {
+    InterfaceSolver& solver;
+    void vmult(Vector& product, const Vector& x) const { solver.apply(product, x); }
+  };
+  struct Preconditioner {
+    InterfaceSolver& solver;
+    void vmult(Vector& x, const Vector& b) const { solver.apply_factor(x, b); }
+  };
+  constexpr unsigned int most_steps = 30;
+  constexpr double round_off = 1e-15;
+  SolverControl control(most_steps, round_off * b.l2_norm());
+  try {
+    SolverCG<Vector>(control).solve(Matrix{*this}, x, b, Preconditioner{*this});
+  } catch (const SolverControl::NoConvergence&) {
+    return false;
+  }
+  return true;
+}
+
+dealii::Vector<double> InterfaceSolver::solve(const dealii::Vector<double>& part) {
+  Vector b(own_rows, communicator), x(own_rows, communicator);
+  sum_up(part, b);
+  if (factor != Factor::of_earlier_matrix || !iterate(x, b)) {
+    if (factor != Factor::of_matrix)
+      factorise();
+    apply_factor(x, b);
+  }
+  return of_this_process(x);
 }
 
 } // namespace rollwave
