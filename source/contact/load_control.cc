@@ -1,6 +1,8 @@
 #include "rollwave/contact/load_control.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/falling_zero.h"
+#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
@@ -35,6 +37,12 @@ std::string out_of_reach_text(const Scene& scene, const std::string& where,
   return text.str();
 }
 
+/// The least distance of a node from the road.
+double least_gap(const ContactProblem& problem, const ContactSolution& contact) {
+  const Vector<double> gaps = problem.gaps(contact.state.displacement);
+  return *std::min_element(gaps.begin(), gaps.end());
+}
+
 /// The load falls as the distance grows, by a jump only where a node passes the tangent of a drum.
 std::optional<std::string> missing_load_text(const Scene& scene, double load, bool is_at_tangent) {
   constexpr double tolerance = 1e-9;
@@ -50,38 +58,6 @@ std::optional<std::string> missing_load_text(const Scene& scene, double load, bo
                            "or prescribe Road/Distance");
   return text.str();
 }
-
-/// The distances between which the wanted one lies. The load falls as the distance grows.
-struct Bracket {
-  double near, far;
-  bool is_near_tried = false, is_far_tried = false;
-
-  explicit Bracket(const Scene& scene)
-      : near(scene.least_distance), far(scene.road.greatest_distance()) {}
-
-  /// @param excess of the load at a distance over the wanted one
-  void narrow(double distance, double excess) {
-    (excess > 0 ? near : far) = distance;
-    (excess > 0 ? is_near_tried : is_far_tried) = true;
-  }
-
-  bool is_narrow(double tolerance) const {
-    return is_near_tried && is_far_tried && far - near <= tolerance * near;
-  }
-
-  /// The distance to try next: that of Newton's method if it lies within the bracket. Otherwise an
-  /// end that has not been tried, so that a load out of reach is found at once, or the middle.
-  /// @param newton nullopt without contact, where the stiffness is 0
-  double next(std::optional<double> newton) const {
-    if (newton && near < *newton && *newton < far)
-      return *newton;
-    if (!is_near_tried && !(newton && *newton >= far))
-      return near;
-    if (!is_far_tried && std::isfinite(far))
-      return far;
-    return std::isfinite(far) ? near + (far - near) / 2 : 2 * near;
-  }
-};
 
 /// The change of the contact state for each unit of length by which the road comes nearer while the
 /// same nodes stay in contact: they follow it, du_i = -dphi/dc.
@@ -181,43 +157,44 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
                            const Scene& scene, unsigned int most_steps, const Vector<double>& start,
                            RunStatistics& statistics) {
   constexpr double tolerance = 1e-10;
-  constexpr unsigned int most_trials = 100;
   const auto [wanted, kind] = *scene.load;
-  Bracket bracket(scene);
   RoadPosition road = {scene.road.distance, 0, start};
-  for (unsigned int trial = 0; trial < most_trials; ++trial) {
-    const ContactProblem problem =
-        make_contact_problem(boundary, with_distance(scene, road.distance));
-    const ContactSolution contact =
-        active_set(equations, problem, most_steps, road.pressure, statistics);
+  ContactProblem problem;
+  ContactSolution contact;
+  // The load above the wanted one. Without contact the least gap counts as a negative load, so that
+  // the search sees how far away contact is.
+  const auto excess_at = [&, wanted = wanted, kind = kind](double distance) {
+    if (is_interrupted(boundary.space().communicator()))
+      throw Interrupted("interrupted in the search for the distance");
+    problem = make_contact_problem(boundary, with_distance(scene, distance));
+    contact = active_set(equations, problem, most_steps, road.pressure, statistics);
+    road.distance = distance;
     road.pressure = problem.pressures(contact.state.force);
     road.load = loads_of(problem, contact.state.force).of(kind);
     road.history.push_back(
-        {road.distance, road.load, static_cast<unsigned int>(contact.history.size())});
-    const double excess = road.load - wanted;
-    if (std::abs(excess) <= tolerance * wanted)
-      return road;
-    const bool is_at_tangent = reaches_tangent(boundary, problem.road, contact.active);
-    if (excess < 0 && road.distance == scene.least_distance)
-      road.refusal = out_of_reach_text(scene, "nearest to", road, is_at_tangent);
-    if (excess > 0 && road.distance == scene.road.greatest_distance())
-      road.refusal = out_of_reach_text(scene, "farthest from", road, is_at_tangent);
-    bracket.narrow(road.distance, excess);
-    if (bracket.is_narrow(4e-16)) // both ends are neighbouring numbers
-      road.shortfall = missing_load_text(scene, road.load, is_at_tangent);
-    if (road.refusal || bracket.is_narrow(4e-16))
-      return road;
-    const double stiffness =
-        loads_of(problem, rate_of_approach(equations, problem, contact, statistics).force).of(kind);
-    road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
-                                               : std::nullopt);
-  }
-  std::ostringstream text;
-  text << "no distance was found for Road/Load = " << wanted * scene.units.of(Quantity::force)
-       << ": after " << most_trials << " trials the distance is between "
-       << bracket.near * scene.units.length << " and " << bracket.far * scene.units.length
-       << ", and the load reached is " << road.load * scene.units.of(Quantity::force);
-  throw NotSolved(text.str());
+        {distance, road.load, static_cast<unsigned int>(contact.history.size())});
+    const double gap = road.load == 0 ? least_gap(problem, contact) : 0;
+    const double excess = road.load - wanted - gap;
+    return std::abs(excess) <= tolerance * wanted ? 0 : excess;
+  };
+  const double at_start = excess_at(road.distance);
+  const double stiffness =
+      loads_of(problem, rate_of_approach(equations, problem, contact, statistics).force).of(kind);
+  // Twice the step of Newton's method, to the other side of the zero.
+  const double first_step = 2 * std::abs(at_start) / (stiffness > 0 ? stiffness : 1);
+  const ArgumentRange range = {scene.least_distance, scene.road.greatest_distance()};
+  falling_zero(excess_at, road.distance, at_start, first_step, range, 4e-16);
+
+  if (std::abs(road.load - wanted) <= tolerance * wanted)
+    return road;
+  const bool is_at_tangent = reaches_tangent(boundary, problem.road, contact.active);
+  if (road.load < wanted && road.distance == range.least)
+    road.refusal = out_of_reach_text(scene, "nearest to", road, is_at_tangent);
+  else if (road.load > wanted && road.distance == range.greatest)
+    road.refusal = out_of_reach_text(scene, "farthest from", road, is_at_tangent);
+  else // both sides are neighbouring numbers
+    road.shortfall = missing_load_text(scene, road.load, is_at_tangent);
+  return road;
 }
 
 } // namespace rollwave

@@ -32,7 +32,7 @@ void report_distances(std::ostream& out, const std::vector<DistanceStep>& histor
     table.add_value(load, rounded(history[step].load * units.of(Quantity::force), 9));
     table.add_value("contact steps", history[step].contact_steps);
   }
-  out << "\nDistance steps by Newton's method\n" << table_text(table);
+  out << "\nDistance steps\n" << table_text(table);
 }
 
 /// A longer history is printed without its middle.

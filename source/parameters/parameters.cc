@@ -113,7 +113,8 @@ void declare_mesh(Section<RunOptions::Mesh> keys) {
            "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.", {Affects::titles});
   keys.add(
       "Radial cells", &MeshOptions::radial_cells, {1, most},
-      "Cells from hub to surface, 1 to 2147483647: equal heights, graded near very small hubs.",
+      "Cells from hub to surface, 1 to 2147483647: equal heights, graded near very small hubs, "
+      "which have more cells if these are too few.",
       {Affects::resolution});
   keys.add("Angular cells", &MeshOptions::angular_cells, {3, most},
            "Cells around the ring, 3 to 2147483647.", {Affects::resolution});
@@ -171,9 +172,9 @@ void declare_contact(Section<ContactOptions> keys) {
       "Stopping rule", &ContactOptions::stop,
       {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
       "The quantity that Uzawa's method compares with the tolerance, in the l2 norm over the "
-      "contact nodes, relative to that of u. \"gap\": |change of the pressure| / rho, the "
-      "violation of the contact conditions. \"change\": the change of u in one step, where the "
-      "violation has to be at most the square root of the tolerance.",
+      "contact nodes, relative to that of the displacement by contact. \"gap\": |change of the "
+      "pressure| / rho, the violation of the contact conditions. \"change\": the change of u in "
+      "one step, where the violation has to be at most the square root of the tolerance.",
       {Affects::uzawa});
   keys.add("Tolerance", &ContactOptions::tolerance, {1e-15, 0.1},
            "Relative tolerance of Uzawa's method, from 1e-15 to 0.1. The active set method ends "

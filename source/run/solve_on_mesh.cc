@@ -1,6 +1,7 @@
 #include "rollwave/run/solve_on_mesh.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/run/round_off.h"
@@ -69,8 +70,16 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
     solution.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
+  const auto observe = [&](const std::vector<ContactStep>& history) {
+    if (step_ended)
+      step_ended(history);
+    // Its steps may be very many.
+    if (options.method == ContactMethod::uzawa && is_interrupted(boundary.space().communicator()))
+      throw Interrupted("interrupted in step " + std::to_string(history.size()) +
+                        " of Uzawa's method");
+  };
   solution.contact =
-      solve_contact(equations, solution.problem, options, pressure, statistics, step_ended);
+      solve_contact(equations, solution.problem, options, pressure, statistics, observe);
   if (!solution.contact.remark.empty())
     solution.notes.push_back({Note::Kind::remark, solution.contact.remark});
 }

@@ -58,15 +58,15 @@ struct RoadPosition {
 };
 
 /**
- * The road's distance at which the load is that of Scene::load, by Newton's method within a
- * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow.
+ * The road's distance at which the load is that of Scene::load, by falling_zero(), to 1e-10 of the
+ * load or as near as neighbouring distances in double precision allow.
  * The active set method finds the contact for each distance, beginning with that of the distance
  * before. The first is that of @p scene, with the pressures @p start.
  *
  * The load is out of reach on this mesh where a road at Scene::least_distance carries less, or a
  * drum around the cylinder carries more at every distance.
  *
- * @throws NotSolved as active_set(), or after 100 trials.
+ * @throws NotSolved as active_set() and falling_zero()
  */
 RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps,
