@@ -83,6 +83,18 @@ TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
   EXPECT_NEAR(largest_compliance(circle.equations, circle.problem, all), std::log(2), 1e-6);
 }
 
+// Plain steps would be 9, 16 and 30.
+TEST(ActiveSet, NeedsFewStepsOnStretchedCells) {
+  for (const char* cells : {"250", "500", "1000"}) {
+    Prepared scene(parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=2",
+                                  std::string("Mesh/Angular cells=") + cells}));
+    const ContactSolution solution =
+        active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
+    EXPECT_LE(solution.history.size(), 18u) << cells;
+    EXPECT_TRUE(solution.remark.empty());
+  }
+}
+
 /// What contact adds to the displacement.
 Vector<double> by_contact(Prepared& scene, Vector<double> displacement) {
   const unsigned int n = scene.problem.size();
