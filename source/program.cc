@@ -68,7 +68,7 @@ void verify(Solution& solution, MPI_Comm communicator, std::ostream& out) {
   std::string why;
   if (const auto exact = find_exact_solution(scene, &why, communicator)) {
     solution.result.errors = measure_true_errors(solution, *exact);
-    if (scene.load)
+    if (!scene.has_distance())
       solution.result.errors->exact_distance = find_exact_distance(scene, communicator);
     report_verification(out, scene, solution.result, *exact,
                         find_exact_stiffness(scene, communicator));
@@ -87,7 +87,7 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene));
-  report_result(out, solution.result, scene.units);
+  report_result(out, solution.result, solution.scene.units);
   const auto& directory = parameters.output.directory;
   WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) { // which may take long

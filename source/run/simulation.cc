@@ -156,12 +156,13 @@ void add_stiffness(const System& system, const Load* load, MeshSolution& solutio
       solution.boundary.space().communicator(), solution.notes);
 }
 
-/// The solution of a run from that on its last mesh. @throws BadValue for a load out of reach
+/// The solution of a run from that on its last mesh. @throws BadValue for a load or a nip out of
+/// reach
 Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
                 bool is_interrupted, RunStatistics statistics) {
-  if (last.load_refusal)
-    throw BadValue("Road", "Load", *last.load_refusal);
+  if (last.road_refusal)
+    throw BadValue("Road", last.scene.nip ? "Nip" : "Load", *last.road_refusal);
   Result result = make_result(options, mesh, last, certificate, std::move(cycles), is_interrupted,
                               std::move(statistics));
   return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),

@@ -53,17 +53,17 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
           std::max(wanted_residual, relative(round_off, forces))};
 }
 
-/// Finds the distance if a load is given. Then solves the contact problem.
+/// Finds the distance if a load or a nip is given. Then solves the contact problem.
 void solve_contact_on(const ContactOptions& options, const PressureProfile& start,
                       const ContactEquations& equations, const ContactObserver& step_ended,
                       RunStatistics& statistics, MeshSolution& solution) {
   const ContactBoundary& boundary = solution.boundary;
   Vector<double> pressure = start.at(boundary.contact_nodes());
-  if (solution.scene.load) {
+  if (!solution.scene.has_distance()) {
     RoadPosition road = find_distance(equations, boundary, solution.scene, options.most_steps,
                                       pressure, statistics);
     solution.scene = with_distance(solution.scene, road.distance);
-    solution.load_refusal = std::move(road.refusal);
+    solution.road_refusal = std::move(road.refusal);
     if (road.shortfall)
       solution.notes.push_back({Note::Kind::shortfall, *road.shortfall});
     pressure = std::move(road.pressure);
@@ -145,6 +145,11 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
   const RunStatistics::Phase phase(statistics, "measurement");
   solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),
                                         solution.problem, solution.contact);
+  if (const auto& given = solution.scene.load; given && scene.nip) {
+    const double load = solution.resultants.loads.of(given->kind);
+    if (load > 0)
+      solution.scene = calibrated(solution.scene, given->value / load);
+  }
   if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
     solution.resultants.loads.work_conjugate.reset();
     solution.notes.push_back({Note::Kind::remark,

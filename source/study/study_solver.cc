@@ -173,7 +173,7 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
             known_or_computed(exact_solutions, {cylinder, road, material, scene.road.distance},
                               [&] { return find_exact_solution(scene, nullptr, communicator); })) {
       result.errors = measure_true_errors(*solution, *exact);
-      if (scene.load)
+      if (!scene.has_distance())
         result.errors->exact_distance = known_or_computed(
             exact_distances, {cylinder, road, material, 0}, // the same on all meshes
             [&] { return find_exact_distance(scene, communicator); });

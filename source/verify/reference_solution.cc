@@ -51,23 +51,27 @@ double free_depth(const Scene& scene, double c) {
 } // namespace
 
 std::optional<double> find_exact_distance(const Scene& scene, MPI_Comm communicator) {
-  const auto [wanted, kind] = *scene.load;
-  // The exact load above the wanted one. Without contact the gap counts as a negative load.
-  const auto excess_at = [&, wanted = wanted, kind = kind](double distance) {
-    const auto exact = find_exact_solution(with_distance(scene, distance), nullptr, communicator);
+  const double wanted = scene.nip ? *scene.nip : scene.load->value;
+  // The exact load or nip above the wanted one. Without contact the gap counts as a negative one.
+  const auto excess_at = [&](double distance) {
+    const Scene moved = with_distance(scene, distance);
+    const auto exact = find_exact_solution(moved, nullptr, communicator);
     if (!exact)
       throw NotSolved("no exact solution is known at a distance that the search tries");
     constexpr double accuracy = 3e-11;
-    const double load = exact->loads.of(kind), depth = free_depth(scene, distance),
-                 excess = load - wanted + (load > 0 ? 0 : depth);
+    const double reached = scene.nip ? 2 * moved.road.arc_length(exact->half_width)
+                                     : exact->loads.of(scene.load->kind),
+                 excess = reached - wanted + (reached > 0 ? 0 : free_depth(scene, distance));
     return std::abs(excess) <= accuracy * wanted ? 0 : excess;
   };
   try {
     const double start = scene.road.distance, at_start = excess_at(start);
-    // A load grows at least like the depth: twice the step to the other side of the zero.
-    const double depth = std::abs(free_depth(scene, start)), load = wanted + at_start,
+    // Twice the step if a load grew like the depth, and a nip like its root.
+    const double depth = std::abs(free_depth(scene, start)), reached = wanted + at_start,
                  first_step =
-                     std::max(2 * depth * (load > 0 ? std::abs(at_start) / load : 1), 1e-9 * start);
+                     std::max(2 * depth * (reached > 0 ? std::abs(at_start) / reached : 1) *
+                                  (scene.nip ? 2 : 1),
+                              1e-9 * start);
     const auto [left, right] =
         falling_zero(excess_at, start, at_start, first_step,
                      {scene.least_distance, scene.road.greatest_distance()}, 1e-11);

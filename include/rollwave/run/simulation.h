@@ -16,7 +16,7 @@ namespace rollwave {
 
 /// A solved scene with its field.
 struct Solution {
-  Scene scene; ///< with the distance that a given load needs
+  Scene scene; ///< with the distance, and the shear modulus, that a given load or nip needs
   Mesh mesh;
   FieldVector displacement; ///< u_h
   std::optional<Certificate> certificate;
@@ -59,7 +59,8 @@ struct SharedObjects {
 /// Solves a scene without refinement on objects that belong to the same radii, mesh options, speed
 /// and force, and whose zone contains that of the scene.
 /// @param statistics work and seconds of making the objects, if they are to be part of the result
-/// @throws BadValue for a load that no distance gives; NotSolved as solve_on_mesh(); Interrupted
+/// @throws BadValue for a load or a nip that no distance gives; NotSolved as solve_on_mesh();
+/// Interrupted
 Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
                          const RunOptions& options, RunStatistics statistics);
 

@@ -18,9 +18,9 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene,
                                                  std::string* why_none = nullptr,
                                                  MPI_Comm communicator = MPI_COMM_SELF);
 
-/// The distance at which the exact solution has the load of Scene::load, by falling_zero() from
-/// that of @p scene, to the accuracy of the exact load, 3e-11. nullopt if no exact solution is
-/// known. Interrupted as find_exact_solution().
+/// The distance at which the exact solution has Scene::nip, or the load of Scene::load, by
+/// falling_zero() from that of @p scene, to the accuracy of the exact answer, 3e-11. nullopt if no
+/// exact solution is known. Interrupted as find_exact_solution().
 std::optional<double> find_exact_distance(const Scene& scene,
                                           MPI_Comm communicator = MPI_COMM_SELF);
 
