@@ -62,15 +62,16 @@ void run_and_report_study(Study& study, const Parameters& parameters,
 }
 
 /// Adds the errors to the result, where the exact solution is known.
-void verify(Solution& solution, std::ostream& out) {
+void verify(Solution& solution, MPI_Comm communicator, std::ostream& out) {
   const Scene& scene = solution.scene;
   const RunStatistics::Phase phase(solution.result.statistics, "verification");
   std::string why;
-  if (const auto exact = find_exact_solution(scene, &why)) {
+  if (const auto exact = find_exact_solution(scene, &why, communicator)) {
     solution.result.errors = measure_true_errors(solution, *exact);
-    if (scene.load)
-      solution.result.errors->exact_distance = find_exact_distance(scene);
-    report_verification(out, scene, solution.result, *exact, find_exact_stiffness(scene));
+    if (!scene.has_distance())
+      solution.result.errors->exact_distance = find_exact_distance(scene, communicator);
+    report_verification(out, scene, solution.result, *exact,
+                        find_exact_stiffness(scene, communicator));
   } else {
     const std::string remark = "no exact solution is known for this scene: " + why;
     solution.result.notes.push_back({Note::Kind::remark, remark});
@@ -86,11 +87,11 @@ void solve_scene(const Scene& scene, const Parameters& parameters,
     out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
            "compares a single scene with its exact solution\n";
   Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene));
-  report_result(out, solution.result, scene.units);
+  report_result(out, solution.result, solution.scene.units);
   const auto& directory = parameters.output.directory;
   WrittenFiles written = write_results(directory, parameters, solution);
   if (verifies) { // which may take long
-    attempt([&] { verify(solution, out); }, "the result could not be verified",
+    attempt([&] { verify(solution, communicator, out); }, "the result could not be verified",
             "leave out --verify", communicator, solution.result.notes);
     WrittenFiles again;
     write_summary(directory, parameters, solution, again);

@@ -45,6 +45,28 @@ void keep_first_change(const std::vector<bool>& active, std::vector<bool>& next)
   std::copy(first + 1, active.end(), next.begin() + (first + 1 - active.begin()));
 }
 
+/// Releases @p n_more nodes on both sides of each node that leaves contact. Returns their number.
+unsigned int release_more(const std::vector<bool>& active, int n_more, std::vector<bool>& next) {
+  const int n = next.size();
+  const std::vector<bool> proposed = next;
+  unsigned int n_released = 0;
+  for (int i = 0; i < n; ++i)
+    if (active[i] && !proposed[i])
+      for (int j = std::max(i - n_more, 0); j <= std::min(i + n_more, n - 1); ++j) {
+        n_released += next[j];
+        next[j] = false;
+      }
+  return n_released;
+}
+
+/// True if a node enters contact.
+bool has_entry(const std::vector<bool>& active, const std::vector<bool>& next) {
+  for (unsigned int i = 0; i < active.size(); ++i)
+    if (next[i] && !active[i])
+      return true;
+  return false;
+}
+
 /// Puts the active nodes on the road, and takes the forces off the others.
 void pin(const ContactProblem& problem, ContactSolution& solution) {
   for (unsigned int i = 0; i < problem.size(); ++i)
@@ -65,7 +87,8 @@ ContactSolution active_set(const ContactEquations& equations, const ContactProbl
     solution.active[i] = start(i) > 0;
   solution.state.displacement.reinit(problem.size());
   solution.state.force.reinit(problem.size());
-  bool changes_one_by_one = false;
+  bool changes_one_by_one = false, has_long_steps = true;
+  int n_shrinking = 0; // steps since a node has last entered contact
   std::set<std::vector<bool>> visited;
   for (;;) {
     pin(problem, solution);
@@ -83,13 +106,23 @@ ContactSolution active_set(const ContactEquations& equations, const ContactProbl
       throw NotSolved("the active set method has not ended after " + std::to_string(most_steps) +
                       " steps: " + std::to_string(step.changed) +
                       " nodes still change; raise Contact/Most steps");
-    if (is_repeated) {
+    if (is_repeated && has_long_steps) {
+      has_long_steps = false;
+      visited.clear();
+    } else if (is_repeated) {
       changes_one_by_one = true;
       solution.remark = "the active set repeated itself; from then on one node changed at a time";
     }
     if (changes_one_by_one) {
       keep_first_change(solution.active, next);
       step.changed = 1;
+    }
+    // Where cells are stretched along r, an end of contact moves by a node or two in a step.
+    constexpr int few = 3, most_doublings = 20;
+    n_shrinking = has_entry(solution.active, next) ? 0 : n_shrinking + 1;
+    if (has_long_steps && n_shrinking >= few) {
+      step.changed +=
+          release_more(solution.active, 1 << std::min(n_shrinking - few, most_doublings), next);
     }
     solution.active = std::move(next);
   }

@@ -106,6 +106,13 @@ double ContactResultants::half_width() const {
   return sum;
 }
 
+double ContactResultants::length() const {
+  double sum = 0;
+  for (const ContactPatch& patch : patches)
+    sum += patch.length;
+  return sum;
+}
+
 ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
                                   const ContactProblem& problem, const ContactSolution& solution) {
   const auto& [displacement, force, kept] = solution.state;

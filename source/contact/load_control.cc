@@ -1,7 +1,10 @@
 #include "rollwave/contact/load_control.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/falling_zero.h"
+#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/active_set.h"
+#include "rollwave/contact/contact_patch.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/scene/units.h"
 
@@ -16,72 +19,74 @@ using namespace dealii;
 
 namespace {
 
-/// Why a load is out of reach on a mesh: it is too large or too small at @p road, which is the
-/// nearest or the farthest from the axle, as @p where says.
-std::string out_of_reach_text(const Scene& scene, const std::string& where,
-                              const RoadPosition& road, bool is_at_tangent) {
+/// What the distance is searched for: a length of contact or a load, both lengths in a Scene.
+struct Target {
+  std::string key; ///< "Nip" or "Load"
+  double wanted;
+  LoadKind kind; ///< of the load
+  Quantity quantity;
+
+  bool is_nip() const { return quantity == Quantity::length; }
+
+  double of(const DistanceStep& step) const { return is_nip() ? step.nip : step.load; }
+};
+
+Target target_of(const Scene& scene) {
+  const LoadKind kind = scene.load ? scene.load->kind : LoadKind::vertical;
+  return scene.nip ? Target{"Nip", *scene.nip, kind, Quantity::length}
+                   : Target{"Load", scene.load->value, kind, Quantity::force};
+}
+
+/// Why load or nip are out of reach on a mesh: they are too large or too small at the last
+/// distance, which is the nearest or the farthest from the axle, as @p where says.
+std::string out_of_reach_text(const Scene& scene, const Target& target, const std::string& where,
+                              const DistanceStep& last, bool is_at_tangent) {
+  const Units& units = scene.units;
+  const std::string name = target.is_nip() ? "nip" : "load";
   std::ostringstream text;
   text.precision(6);
-  text << "no distance gives this load: the road is " << where << " the axle at the distance "
-       << road.distance * scene.units.length << scene.units.after(Quantity::length)
-       << ", and the load there is about " << road.load * scene.units.of(Quantity::force)
-       << scene.units.after(Quantity::force) << "; ";
+  text << "no distance gives this " << name << ": the road is " << where << " the axle at the "
+       << "distance " << last.distance * units.length << units.after(Quantity::length)
+       << ", and the " << name << " there is about " << target.of(last) * units.of(target.quantity)
+       << units.after(target.quantity) << "; ";
   if (is_at_tangent)
     text << "contact reaches the tangent of the drum on this mesh: raise Mesh/Angular cells";
-  else if (scene.units.material.is_given())
+  else if (target.is_nip())
+    text << "it may be in another unit than the radii";
+  else if (units.material.is_given())
     text << "Material/Shear modulus may be in another unit than the load";
   else
     text << "without section Material, loads are relative to the shear modulus";
   return text.str();
 }
 
-/// The load falls as the distance grows, by a jump only where a node passes the tangent of a drum.
-std::optional<std::string> missing_load_text(const Scene& scene, double load, bool is_at_tangent) {
-  constexpr double tolerance = 1e-9;
-  const double wanted = scene.load->value, force = scene.units.of(Quantity::force);
-  if (std::abs(load - wanted) <= tolerance * wanted)
+/// Load and nip fall as the distance grows: the load by a jump only where a node passes the tangent
+/// of a drum, the nip where a node enters contact.
+std::optional<std::string> missing_text(const Scene& scene, const Target& target,
+                                        const DistanceStep& last, bool is_at_tangent) {
+  const double tolerance = target.is_nip() ? 1e-2 : 1e-9, reached = target.of(last),
+               unit = scene.units.of(target.quantity);
+  if (std::abs(reached - target.wanted) <= tolerance * target.wanted)
     return {};
   std::ostringstream text;
-  text << "the load is " << std::setprecision(12) << load * force << ", wanted " << wanted * force
-       << std::setprecision(3) << " (relative difference " << std::abs(load / wanted - 1) << "): "
-       << (is_at_tangent ? "it jumps where a node passes the tangent of the drum; raise "
-                           "Mesh/Angular cells"
-                         : "the next distance in double precision is no better; change Road/Load, "
-                           "or prescribe Road/Distance");
+  text << "the " << (target.is_nip() ? "nip" : "load") << " is " << std::setprecision(12)
+       << reached * unit << ", wanted " << target.wanted * unit << std::setprecision(3)
+       << " (relative difference " << std::abs(reached / target.wanted - 1) << "): ";
+  if (is_at_tangent)
+    text << "it jumps where a node passes the tangent of the drum; raise Mesh/Angular cells";
+  else if (target.is_nip())
+    text << "it jumps where a node enters contact; raise Mesh/Angular cells";
+  else
+    text << "the next distance in double precision is no better; change Road/Load, or prescribe "
+            "Road/Distance";
   return text.str();
 }
 
-/// The distances between which the wanted one lies. The load falls as the distance grows.
-struct Bracket {
-  double near, far;
-  bool is_near_tried = false, is_far_tried = false;
-
-  explicit Bracket(const Scene& scene)
-      : near(scene.least_distance), far(scene.road.greatest_distance()) {}
-
-  /// @param excess of the load at a distance over the wanted one
-  void narrow(double distance, double excess) {
-    (excess > 0 ? near : far) = distance;
-    (excess > 0 ? is_near_tried : is_far_tried) = true;
-  }
-
-  bool is_narrow(double tolerance) const {
-    return is_near_tried && is_far_tried && far - near <= tolerance * near;
-  }
-
-  /// The distance to try next: that of Newton's method if it lies within the bracket. Otherwise an
-  /// end that has not been tried, so that a load out of reach is found at once, or the middle.
-  /// @param newton nullopt without contact, where the stiffness is 0
-  double next(std::optional<double> newton) const {
-    if (newton && near < *newton && *newton < far)
-      return *newton;
-    if (!is_near_tried && !(newton && *newton >= far))
-      return near;
-    if (!is_far_tried && std::isfinite(far))
-      return far;
-    return std::isfinite(far) ? near + (far - near) / 2 : 2 * near;
-  }
-};
+/// The least distance of a node from the road.
+double least_gap(const ContactProblem& problem, const ContactSolution& contact) {
+  const Vector<double> gaps = problem.gaps(contact.state.displacement);
+  return *std::min_element(gaps.begin(), gaps.end());
+}
 
 /// The change of the contact state for each unit of length by which the road comes nearer while the
 /// same nodes stay in contact: they follow it, du_i = -dphi/dc.
@@ -181,43 +186,56 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
                            const Scene& scene, unsigned int most_steps, const Vector<double>& start,
                            RunStatistics& statistics) {
   constexpr double tolerance = 1e-10;
-  constexpr unsigned int most_trials = 100;
-  const auto [wanted, kind] = *scene.load;
-  Bracket bracket(scene);
-  RoadPosition road = {scene.road.distance, 0, start};
-  for (unsigned int trial = 0; trial < most_trials; ++trial) {
-    const ContactProblem problem =
-        make_contact_problem(boundary, with_distance(scene, road.distance));
-    const ContactSolution contact =
-        active_set(equations, problem, most_steps, road.pressure, statistics);
+  const Target target = target_of(scene);
+  const double wanted = target.wanted;
+  RoadPosition road = {scene.road.distance, start};
+  ContactProblem problem;
+  ContactSolution contact;
+  // Load or nip above the wanted one. Without contact the least gap counts as a negative one, so
+  // that the search sees how far away contact is.
+  const auto excess_at = [&](double distance) {
+    if (is_interrupted(boundary.space().communicator()))
+      throw Interrupted("interrupted in the search for the distance");
+    const Scene moved = with_distance(scene, distance);
+    problem = make_contact_problem(boundary, moved);
+    contact = active_set(equations, problem, most_steps, road.pressure, statistics);
+    road.distance = distance;
     road.pressure = problem.pressures(contact.state.force);
-    road.load = loads_of(problem, contact.state.force).of(kind);
-    road.history.push_back(
-        {road.distance, road.load, static_cast<unsigned int>(contact.history.size())});
-    const double excess = road.load - wanted;
-    if (std::abs(excess) <= tolerance * wanted)
-      return road;
-    const bool is_at_tangent = reaches_tangent(boundary, problem.road, contact.active);
-    if (excess < 0 && road.distance == scene.least_distance)
-      road.refusal = out_of_reach_text(scene, "nearest to", road, is_at_tangent);
-    if (excess > 0 && road.distance == scene.road.greatest_distance())
-      road.refusal = out_of_reach_text(scene, "farthest from", road, is_at_tangent);
-    bracket.narrow(road.distance, excess);
-    if (bracket.is_narrow(4e-16)) // both ends are neighbouring numbers
-      road.shortfall = missing_load_text(scene, road.load, is_at_tangent);
-    if (road.refusal || bracket.is_narrow(4e-16))
-      return road;
-    const double stiffness =
-        loads_of(problem, rate_of_approach(equations, problem, contact, statistics).force).of(kind);
-    road.distance = bracket.next(stiffness > 0 ? std::optional(road.distance + excess / stiffness)
-                                               : std::nullopt);
-  }
-  std::ostringstream text;
-  text << "no distance was found for Road/Load = " << wanted * scene.units.of(Quantity::force)
-       << ": after " << most_trials << " trials the distance is between "
-       << bracket.near * scene.units.length << " and " << bracket.far * scene.units.length
-       << ", and the load reached is " << road.load * scene.units.of(Quantity::force);
-  throw NotSolved(text.str());
+    const ContactResultants resultants =
+        measure_contact(moved, boundary.contact_nodes(), problem, contact);
+    road.history.push_back({distance, resultants.loads.of(target.kind), resultants.length(),
+                            static_cast<unsigned int>(contact.history.size())});
+    const double reached = target.of(road.history.back());
+    const double excess = reached - wanted - (reached > 0 ? 0 : least_gap(problem, contact));
+    return std::abs(excess) <= tolerance * wanted ? 0 : excess;
+  };
+  const double at_start = excess_at(road.distance);
+  const ArgumentRange range = {scene.least_distance, scene.road.greatest_distance()};
+  const auto first_step = [&] {
+    if (target.is_nip()) { // twice the one by which a chord of this length would change its depth
+      const double nip = road.history.back().nip;
+      return std::abs(nip * nip - wanted * wanted) / 2 *
+             (1 / scene.outer_radius + std::max(scene.road.curvature, 0.));
+    }
+    const ContactState rate = rate_of_approach(equations, problem, contact, statistics);
+    const double stiffness = loads_of(problem, rate.force).of(target.kind);
+    return 2 * std::abs(at_start) /
+           (stiffness > 0 ? stiffness : 1); // twice that of Newton's method
+  };
+  falling_zero(excess_at, road.distance, at_start, first_step(), range, 4e-16);
+
+  const DistanceStep& last = road.history.back();
+  const double reached = target.of(last);
+  if (std::abs(reached - wanted) <= tolerance * wanted)
+    return road;
+  const bool is_at_tangent = reaches_tangent(boundary, problem.road, contact.active);
+  if (reached < wanted && road.distance == range.least)
+    road.refusal = out_of_reach_text(scene, target, "nearest to", last, is_at_tangent);
+  else if (reached > wanted && road.distance == range.greatest)
+    road.refusal = out_of_reach_text(scene, target, "farthest from", last, is_at_tangent);
+  else // both sides are neighbouring numbers
+    road.shortfall = missing_text(scene, target, last, is_at_tangent);
+  return road;
 }
 
 } // namespace rollwave

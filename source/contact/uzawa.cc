@@ -15,6 +15,9 @@ using namespace dealii;
 
 namespace {
 
+/// Of the displacement by contact, relative to the whole: less is round-off.
+constexpr double least_size = 1e-14;
+
 /// The largest rho that can converge to a solution in which these nodes are in contact; nullopt
 /// without contact.
 std::optional<double> largest_step_length(const ContactEquations& equations,
@@ -48,12 +51,12 @@ StepLength checked_long_step(const ContactEquations& equations, const ContactPro
   return length;
 }
 
-/// On an iteration whose residual has stopped falling.
+/// On an iteration whose violation of the contact conditions has stopped falling.
 std::string stagnates_text(const ContactOptions& options, double rho, std::size_t steps,
                            double smallest) {
   std::ostringstream text;
-  text << "Uzawa's method stagnates with rho = " << rho << ": the smallest residual of " << steps
-       << " steps is " << smallest << ", wanted " << options.tolerance
+  text << "Uzawa's method stagnates with rho = " << rho << ": the smallest violation of " << steps
+       << " steps is " << smallest << " of the displacement, wanted " << options.tolerance
        << "; raise Contact/Tolerance above round-off";
   return text.str();
 }
@@ -83,6 +86,14 @@ Vector<double> begin_with(const ContactProblem& problem, const Vector<double>& s
   solution.state.force = problem.forces(p);
   solution.state.force *= -1;
   return p;
+}
+
+/// The displacement of the contact nodes without contact.
+Vector<double> contact_free_displacement(const ContactEquations& equations, unsigned int n,
+                                         RunStatistics& statistics) {
+  ContactState free = {Vector<double>(n), Vector<double>(n)};
+  equations.solve(std::vector<bool>(n, false), free, statistics);
+  return free.displacement;
 }
 
 /// p <- min(0, p - rho (u - phi)) for p = -lambda, with the nodal forces of it. The residual of the
@@ -148,6 +159,7 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
   ContactSolution solution;
   Vector<double> p = begin_with(problem, start, solution);
   const Vector<double>& displacement = solution.state.displacement;
+  const Vector<double> free = contact_free_displacement(equations, problem.size(), statistics);
   equations.solve(none, solution.state, statistics);
 
   double smallest = std::numeric_limits<double>::max();
@@ -160,7 +172,11 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
       equations.solve(none, solution.state, statistics);
     change -= displacement;
 
-    const double size = displacement.l2_norm();
+    // Relative to what contact does: the whole displacement passes through zero where the force
+    // pushes outwards, and hides a light contact where it is large.
+    Vector<double> by_contact = displacement;
+    by_contact -= free;
+    const double size = std::max(by_contact.l2_norm(), least_size * displacement.l2_norm());
     const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
@@ -175,14 +191,15 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
       return solution;
     }
 
-    // Below the largest rho the residual falls; beyond it, it ends in an oscillation.
-    if (*step.residual < smallest) {
-      smallest = *step.residual;
+    // Below the largest rho the violation falls, by little if rho is small; beyond it, it ends in
+    // an oscillation.
+    if (violation < smallest) {
+      smallest = violation;
       steps_without_progress = 0;
-    } else if (++steps_without_progress >= 200 || !std::isfinite(*step.residual)) {
+    } else if (++steps_without_progress >= 200 || !std::isfinite(violation)) {
       if (rho < safe)
         throw NotSolved(
-            stagnates_text(options, rho / problem.unit, solution.history.size(), smallest));
+            stagnates_text(options, rho / problem.unit, solution.history.size(), smallest / size));
       throw NotSolved(diverges_text(length, problem.unit));
     }
   }

@@ -160,7 +160,9 @@ void AdmissibleTrace::add_pieces(unsigned int edge, const Piece& piece,
   }
   const auto excess_at = [&](double t) { return excess(edge, t).value; };
   const Shape shape = shape_of(excess_at, piece.t_begin, piece.t_end, n_points() + 5);
-  const double round_off = 1e-14 * std::abs(discrete.value(edge, middle));
+  // That of the angle, whose size is about 5, counts where the road is steep.
+  const double slope = road.limit(begin + middle * length).slope;
+  const double round_off = 1e-14 * (std::abs(discrete.value(edge, middle)) + 5 * std::abs(slope));
   if (shape.has_one_sign || shape.size <= round_off)
     pieces.push_back(piece);
   else if (!shape.is_monotone)

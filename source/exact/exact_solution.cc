@@ -1,6 +1,7 @@
 #include "rollwave/exact/exact_solution.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
 #include "rollwave/exact/bessel_modes.h"
 #include "rollwave/exact/galerkin_pressure.h"
 
@@ -28,8 +29,12 @@ double crossing_angle(const ExactScene& scene) {
 /// The zero of the defect, which falls from positive to negative: looked for within @p margin of
 /// @p guess, and further where it is not there.
 double find_half_width(const GalerkinPressure& galerkin, double guess, double margin,
-                       double crossing) {
-  const auto defect = [&](double w) { return galerkin.solve(w).defect; };
+                       double crossing, MPI_Comm communicator) {
+  const auto defect = [&](double w) {
+    if (is_interrupted(communicator))
+      throw Interrupted("interrupted before the exact solution was found");
+    return galerkin.solve(w).defect;
+  };
   for (;; margin *= 10) {
     const double low = std::max(guess - margin, 0.02 * crossing);
     const double high = std::min(guess + margin, crossing);
@@ -118,7 +123,7 @@ struct Limit {
 /// The solution with @p end_exponent. Its numbers are the limits of those of three series, with 12,
 /// 24 and 48 terms.
 ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
-                              double end_exponent) {
+                              double end_exponent, MPI_Comm communicator) {
   const double crossing = crossing_angle(scene);
   double guess = 0.75 * crossing, margin = 0.7 * crossing;
   std::vector<ExactSolution> sequence;
@@ -126,7 +131,7 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
     const GalerkinPressure galerkin(scene, modes, end_exponent, n_terms);
     double w = scene.zone_half_width;
     if (end_exponent > 0) {
-      w = find_half_width(galerkin, guess, margin, crossing);
+      w = find_half_width(galerkin, guess, margin, crossing, communicator);
       margin = sequence.empty() ? 0.02 * crossing : std::abs(w - guess) + 1e-8 * w;
       guess = w;
     }
@@ -155,7 +160,7 @@ ExactSolution solve_with_ends(const ExactScene& scene, const BesselModes& modes,
 
 } // namespace
 
-ExactSolution solve_exactly(const ExactScene& scene) {
+ExactSolution solve_exactly(const ExactScene& scene, MPI_Comm communicator) {
   const double margin = std::max(0., 1 - scene.angular_velocity * scene.outer_radius);
   const double crossing = crossing_angle(scene);
   if (crossing == 0)
@@ -172,16 +177,16 @@ ExactSolution solve_exactly(const ExactScene& scene) {
       GalerkinPressure(scene, modes, is_critical ? 2. / 3 : 0.5, 24)
               .solve(scene.zone_half_width)
               .defect > 0) {
-    ExactSolution cut = solve_with_ends(scene, modes, is_critical ? -1. / 3 : -0.5);
+    ExactSolution cut = solve_with_ends(scene, modes, is_critical ? -1. / 3 : -0.5, communicator);
     cut.ends_resolved = is_critical || is_slow;
     return cut;
   }
   if (is_critical)
-    return solve_with_ends(scene, modes, 2. / 3);
-  const ExactSolution slow = solve_with_ends(scene, modes, 0.5);
+    return solve_with_ends(scene, modes, 2. / 3, communicator);
+  const ExactSolution slow = solve_with_ends(scene, modes, 0.5, communicator);
   if (is_slow)
     return slow;
-  const ExactSolution critical = solve_with_ends(scene, modes, 2. / 3);
+  const ExactSolution critical = solve_with_ends(scene, modes, 2. / 3, communicator);
   ExactSolution better = slow.force_accuracy < critical.force_accuracy ? slow : critical;
   better.ends_resolved = false;
   return better;

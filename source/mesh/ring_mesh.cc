@@ -92,6 +92,21 @@ bool has_graded_radii(double inner_radius, double outer_radius, int n) {
   return (outer_radius - inner_radius) / n > inner_radius && n >= 3;
 }
 
+/// By how much the last of the cells that grow by @p ratio exceeds the others, equal ones.
+double excess_of_growth(double inner_radius, double outer_radius, int n, double ratio,
+                        int n_growing) {
+  const double r = inner_radius * std::pow(ratio, n_growing);
+  return r * (1 - 1 / ratio) - (outer_radius - r) / (n - n_growing);
+}
+
+/// True if radii grow at most fourfold from vertex to vertex, by radii_of().
+bool has_gentle_radii(double inner_radius, double outer_radius, int n) {
+  constexpr double most = 4;
+  return has_graded_radii(inner_radius, outer_radius, n)
+             ? excess_of_growth(inner_radius, outer_radius, n, most, n / 2) >= 0
+             : (outer_radius - inner_radius) / n <= (most - 1) * inner_radius;
+}
+
 /// The radii of the vertices: at equal distances, unless has_graded_radii(). Since u is much like
 /// ln(r/a) there, heights then grow with the radius first, r_i = a q^i, and are equal from where
 /// that would make them taller. q is 2 where the cells suffice, else half of the cells grow.
@@ -102,10 +117,8 @@ std::vector<double> radii_of(double inner_radius, double outer_radius, int n) {
     append_equal(radii, a, b, n);
     return radii;
   }
-  // By how much the last growing cell exceeds the equal ones.
   const auto excess = [&](double q, int n_growing) {
-    const double r = a * std::pow(q, n_growing);
-    return r * (1 - 1 / q) - (b - r) / (n - n_growing);
+    return excess_of_growth(a, b, n, q, n_growing);
   };
   int n_growing = 1;
   while (n_growing < n - 1 && excess(2, n_growing) < 0)
@@ -165,6 +178,16 @@ double count_unknowns(const MeshOptions& mesh) {
          mesh.angular_cells;
 }
 
+MeshOptions with_enough_cells(const Scene& scene, MeshOptions mesh) {
+  while (!has_gentle_radii(scene.inner_radius, scene.outer_radius, mesh.radial_cells))
+    ++mesh.radial_cells;
+  constexpr unsigned int least_columns = 4;
+  if (scene.has_given_zone && mesh.angular_cells < least_columns &&
+      scene.zone_end - scene.zone_begin < 2 * numbers::PI / least_columns)
+    mesh.angular_cells = least_columns;
+  return mesh;
+}
+
 void check_mesh_size(const MeshOptions& mesh) {
   const double unknowns = count_unknowns(mesh);
   if (unknowns <= mesh.most_unknowns)
@@ -222,8 +245,9 @@ void cut_to_zone(Triangulation<2>& mesh, const Scene& scene, const NarrowZone& n
 
 } // namespace
 
-std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& mesh,
+std::unique_ptr<Triangulation<2>> make_ring_mesh(const Scene& scene, const MeshOptions& options,
                                                  MPI_Comm communicator) {
+  const MeshOptions mesh = with_enough_cells(scene, options);
   check_mesh_size(mesh);
   const CoarseMesh coarse = coarsen(scene, mesh);
 

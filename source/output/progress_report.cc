@@ -28,7 +28,7 @@ Progress report_progress(std::ostream& out, const Scene& scene) {
       since_last_line->restart();
     }
   };
-  progress.mesh_solved = [&out, units = scene.units, has_load = scene.load.has_value()](
+  progress.mesh_solved = [&out, units = scene.units, has_load = !scene.has_distance()](
                              unsigned int number, const CycleFigures& mesh) {
     const Quantity quantity = has_load ? Quantity::length : Quantity::force;
     if (number == 1)

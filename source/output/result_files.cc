@@ -7,6 +7,7 @@
 #include "rollwave/output/summary_json.h"
 #include "rollwave/output/surface_vtu.h"
 #include "rollwave/output/vtu.h"
+#include "rollwave/parameters/keys.h"
 #include "rollwave/plot/gnuplot.h"
 #include "rollwave/scene/units.h"
 
@@ -45,6 +46,17 @@ bool fits_single_precision(const Units& units) {
   return fits(Quantity::length) && fits(Quantity::pressure) && fits(Quantity::energy_norm);
 }
 
+/// The parameters with the calibrated shear modulus and density.
+Parameters parameters_used(const Parameters& given, const Result& result) {
+  if (!result.modulus_ratio)
+    return given;
+  const auto scaled = [&](const std::string& key, double value) {
+    return read({"Material", key, number_text(*result.modulus_ratio * value), "calibration"});
+  };
+  return with_values(given, {scaled("Shear modulus", given.material.shear_modulus),
+                             scaled("Density", given.material.density)});
+}
+
 } // namespace
 
 std::vector<std::string> result_file_names(const std::set<OutputFile>& kinds) {
@@ -71,7 +83,7 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   {
     const RunStatistics::Phase phase(result.statistics, "output");
     if (is_first)
-      write_parameters(directory, parameters, written);
+      write_parameters(directory, parameters_used(parameters, result), written);
     if (parameters.wants(OutputFile::contact) && is_first)
       written.write(directory / "contact.csv", contact_csv(result, scene.units));
     if (parameters.wants(OutputFile::surface) && is_first) {

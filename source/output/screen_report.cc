@@ -20,19 +20,21 @@ using namespace dealii;
 
 namespace {
 
-/// The search for the distance of a given load.
+/// The search for the distance of a given load or nip.
 void report_distances(std::ostream& out, const std::vector<DistanceStep>& history,
                       const Units& units) {
   const std::string distance = "distance c" + units.in_brackets(Quantity::length),
-                    load = "load" + units.in_brackets(Quantity::force);
+                    load = "load" + units.in_brackets(Quantity::force),
+                    nip = "nip" + units.in_brackets(Quantity::length);
   TableHandler table;
   for (unsigned int step = 0; step < history.size(); ++step) {
     table.add_value("step", step + 1);
     table.add_value(distance, rounded(history[step].distance * units.of(Quantity::length), 9));
     table.add_value(load, rounded(history[step].load * units.of(Quantity::force), 9));
+    table.add_value(nip, rounded(history[step].nip * units.of(Quantity::length), 9));
     table.add_value("contact steps", history[step].contact_steps);
   }
-  out << "\nDistance steps by Newton's method\n" << table_text(table);
+  out << "\nDistance steps\n" << table_text(table);
 }
 
 /// A longer history is printed without its middle.
@@ -196,8 +198,13 @@ void report_scene(std::ostream& out, const Scene& scene, const Parameters& param
         << ", width = " << material.width << length << ", critical speed "
         << material.wave_speed() / cylinder.outer_radius << unit(Quantity::angular_velocity)
         << '\n';
-  out << "Road       " << (road.load ? "load " : "distance ") << road.load.value_or(road.distance)
-      << unit(road.load ? Quantity::force : Quantity::length);
+  out << "Road       ";
+  if (road.has_distance())
+    out << "distance " << road.distance << length;
+  if (road.load)
+    out << "load " << *road.load << unit(Quantity::force);
+  if (road.nip)
+    out << (road.load ? ", nip " : "nip ") << *road.nip << length;
   if (road.curvature != 0)
     out << ", curvature " << road.curvature;
   out << ", zone of possible contact [" << scene.zone_begin << ", " << scene.zone_end << "] rad\n"
@@ -221,6 +228,13 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   out << "\nResult\n";
   report_patches(out, result.contact, units);
   report_quantities(out, result, units);
+  if (result.modulus_ratio) {
+    const double modulus = units.of(Quantity::pressure);
+    out << "Calibrated shear modulus " << rounded(modulus, 4) << units.after(Quantity::pressure)
+        << " (given " << rounded(modulus / *result.modulus_ratio, 4)
+        << "): write it into Material, with the density " << rounded(units.material.density, 4)
+        << '\n';
+  }
   if (result.certified)
     report_certificate(out, result, units);
   if (const std::string missed = shortfall_text(result); !missed.empty())

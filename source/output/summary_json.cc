@@ -22,7 +22,8 @@ Json scene_json(const Scene& scene, const RunOptions& options) {
                {"radial_force", options.cylinder.radial_force},
                {"zone_begin", scene.zone_begin},
                {"zone_end", scene.zone_end}};
-  const MaterialOptions& material = options.material;
+  const MaterialOptions& material =
+      scene.units.material; // calibrated, where load and nip are given
   const auto& names = material.unit_names;
   if (material.is_given())
     json["material"] = {{"shear_modulus", material.shear_modulus},

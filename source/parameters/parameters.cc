@@ -79,13 +79,18 @@ void declare_road(Section<RoadOptions> keys) {
         return [=](Parameters& p) { p.road.distance = distance; };
       },
       "Distance c of the road below the axle: a length, greater than a; less than 2 b where the "
-      "contact zone is auto. \"none\" where a load is given.",
+      "contact zone is auto. \"none\" where a load or a nip is given.",
       {Affects::titles, "c", Quantity::length});
   keys.add("Load", &RoadOptions::load, "none", positive,
            "\"none\", or instead of the distance the load on the whole width: a force, "
-           "greater than 0. A file gives the distance or the load; either one replaces "
-           "the other where the command line or a study gives it.",
+           "greater than 0. A file gives the distance, or load or nip; these replace the distance, "
+           "and it replaces them, where the command line or a study gives them.",
            {0, "", Quantity::force});
+  keys.add("Nip", &RoadOptions::nip, "none", positive,
+           "\"none\", or instead of the distance the length of contact along the road: a length, "
+           "greater than 0. With a load as well, both are one measurement: the shear modulus, and "
+           "the density in the same ratio, are scaled until both hold.",
+           {0, "", Quantity::length});
   keys.add_choice<LoadKind>(
       "Load kind", &RoadOptions::load_kind,
       {{"vertical", LoadKind::vertical}, {"total", LoadKind::total}},
@@ -113,7 +118,8 @@ void declare_mesh(Section<RunOptions::Mesh> keys) {
            "Polynomial degree of the elements, 1 to 8: 1 for Q1, 2 for Q2.", {Affects::titles});
   keys.add(
       "Radial cells", &MeshOptions::radial_cells, {1, most},
-      "Cells from hub to surface, 1 to 2147483647: equal heights, graded near very small hubs.",
+      "Cells from hub to surface, 1 to 2147483647: equal heights, graded near very small hubs, "
+      "which have more cells if these are too few.",
       {Affects::resolution});
   keys.add("Angular cells", &MeshOptions::angular_cells, {3, most},
            "Cells around the ring, 3 to 2147483647.", {Affects::resolution});
@@ -171,9 +177,9 @@ void declare_contact(Section<ContactOptions> keys) {
       "Stopping rule", &ContactOptions::stop,
       {{"gap", UzawaStop::gap}, {"change", UzawaStop::change}},
       "The quantity that Uzawa's method compares with the tolerance, in the l2 norm over the "
-      "contact nodes, relative to that of u. \"gap\": |change of the pressure| / rho, the "
-      "violation of the contact conditions. \"change\": the change of u in one step, where the "
-      "violation has to be at most the square root of the tolerance.",
+      "contact nodes, relative to that of the displacement by contact. \"gap\": |change of the "
+      "pressure| / rho, the violation of the contact conditions. \"change\": the change of u in "
+      "one step, where the violation has to be at most the square root of the tolerance.",
       {Affects::uzawa});
   keys.add("Tolerance", &ContactOptions::tolerance, {1e-15, 0.1},
            "Relative tolerance of Uzawa's method, from 1e-15 to 0.1. The active set method ends "
@@ -190,28 +196,43 @@ void apply(const std::vector<Assignment>& assignments, Parameters& parameters) {
   }
 }
 
-/// The later one of distance and load holds; the other becomes none.
-void settle_distance_and_load(Parameters& parameters) {
-  std::optional<Setting> distance, load;
-  bool is_load_later = false;
-  for (const Setting& setting : parameters.settings)
-    if (setting.path() == "Road/Distance" || setting.path() == "Road/Load") {
-      const bool is_load = setting.key == "Load", is_given = setting.value != "none";
-      (is_load ? load : distance) = is_given ? std::optional(setting) : std::nullopt;
-      is_load_later = is_given ? is_load : is_load_later;
-    }
-  if (!distance && !load) {
+/// Sets a key of Road to none.
+void leave_out(const std::string& key, Setting setting, Parameters& parameters) {
+  setting.key = key;
+  setting.value = "none";
+  apply({read(setting)}, parameters);
+}
+
+/// The later one of the distance and of load or nip holds; the others become none.
+void settle_distance(Parameters& parameters) {
+  std::optional<Setting> distance, load, nip;
+  bool is_distance_later = false;
+  for (const Setting& setting : parameters.settings) {
+    std::optional<Setting>* const given = setting.path() == "Road/Distance" ? &distance
+                                          : setting.path() == "Road/Load"   ? &load
+                                          : setting.path() == "Road/Nip"    ? &nip
+                                                                            : nullptr;
+    if (!given)
+      continue;
+    *given = setting.value == "none" ? std::nullopt : std::optional(setting);
+    if (*given)
+      is_distance_later = given == &distance;
+  }
+  if (!distance && !load && !nip) {
     if (const Setting* const none = last_of(parameters.settings, "Road/Distance"))
-      throw BadInput(refusal(*none, "\"none\" needs a load: set Road/Load"));
+      throw BadInput(refusal(*none, "\"none\" needs a load or a nip: set Road/Load or Road/Nip"));
     return;
   }
-  if (distance && load && distance->origin == load->origin)
-    throw BadInput(refusal(*load, "a distance and a load are given; leave out one of them, or set "
-                                  "it to none"));
-  Setting other = is_load_later ? *load : *distance;
-  other.key = is_load_later ? "Distance" : "Load";
-  other.value = "none";
-  apply({read(other)}, parameters);
+  for (const auto& other : {load, nip})
+    if (distance && other && distance->origin == other->origin)
+      throw BadInput(refusal(*other,
+                             "a distance is given as well; leave out one of them, or set it "
+                             "to none"));
+  if (!is_distance_later)
+    leave_out("Distance", load ? *load : *nip, parameters);
+  else if (distance)
+    for (const char* const key : {"Load", "Nip"})
+      leave_out(key, *distance, parameters);
 }
 
 } // namespace
@@ -234,7 +255,7 @@ const std::vector<Key>& all_keys() {
 
 Parameters with_values(Parameters parameters, const std::vector<Assignment>& assignments) {
   apply(assignments, parameters);
-  settle_distance_and_load(parameters);
+  settle_distance(parameters);
   return parameters;
 }
 

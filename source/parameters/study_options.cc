@@ -142,9 +142,10 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
 } // namespace
 
 void check_scenes(const StudyOptions& study) {
-  // Distance and load replace each other.
+  // Distance, load and nip replace each other.
   const auto place = [](const Setting& setting) {
-    return setting.path() == "Road/Load" ? "Road/Distance" : setting.path();
+    const std::string path = setting.path();
+    return path == "Road/Load" || path == "Road/Nip" ? "Road/Distance" : path;
   };
   std::set<std::string> varied;
   for (const Variation& variation : study.vary)

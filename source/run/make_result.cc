@@ -70,6 +70,8 @@ Result make_result(const RunOptions& options, const Mesh& mesh, const MeshSoluti
   result.distance_history = solution.distance_history;
   result.history = solution.contact.history;
   result.step_length = solution.contact.step_length;
+  if (scene.load && scene.nip)
+    result.modulus_ratio = scene.units.material.shear_modulus / options.material.shear_modulus;
   result.is_interrupted = is_interrupted;
   result.contact_rows = tabulate_contact(solution.boundary, solution.problem, state);
   result.surface = tabulate_surface(solution.boundary, solution.displacement,

@@ -51,7 +51,7 @@ void require_memory_of_run(const Scene& scene, const MeshOptions& mesh, MPI_Comm
 
 Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                RunStatistics& statistics) {
-  require_memory_of_run(scene, options.mesh, communicator);
+  require_memory_of_run(scene, with_enough_cells(scene, options.mesh), communicator);
   Mesh mesh;
   {
     const RunStatistics::Phase phase(statistics, "mesh");

@@ -80,12 +80,10 @@ Quantities load_quantities() {
        Quantity::force, 0, all_digits, load_bound(&LoadBounds::vertical, &Interval::upper)},
       {"contact.length", "contact length (nip)", "", Quantity::length,
        Shown::screen | Shown::curve | Shown::scene_table, 5,
-       [](const Result& r) {
-         double length = 0;
-         for (const ContactPatch& patch : r.contact.patches)
-           length += patch.length;
-         return length;
-       }},
+       [](const Result& r) { return r.contact.length(); }},
+      {"contact.calibrated_shear_modulus", "calibrated shear modulus", "", Quantity::pressure, 0,
+       all_digits,
+       [](const Result& r) { return r.modulus_ratio ? std::optional(1.) : std::nullopt; }},
       {"contact.force", "contact force", "F", Quantity::force,
        Shown::screen | Shown::table | Shown::curve, all_digits,
        [](const Result& r) { return r.contact.loads.total; }},

@@ -2,6 +2,7 @@
 
 #include "rollwave/adapt/marking.h"
 #include "rollwave/base/text.h"
+#include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/mesh/surface_trace.h"
 
 #include <boost/math/tools/minima.hpp>
@@ -88,6 +89,20 @@ std::string remark_on_force(const Result& result) {
          " % of the bound; put its jumps on edges of cells, or refine the mesh";
 }
 
+/// On a first mesh with more cells than the user has given.
+std::string remark_on_first_mesh(const RunOptions& options, const Scene& scene) {
+  const auto& mesh = options.mesh;
+  const MeshOptions enough = with_enough_cells(scene, mesh);
+  if (enough.radial_cells > mesh.radial_cells)
+    return "the first mesh has " + std::to_string(enough.radial_cells) +
+           " radial cells, which a hub this small needs, not " + std::to_string(mesh.radial_cells);
+  if (enough.angular_cells > mesh.angular_cells)
+    return "the first mesh has " + std::to_string(enough.angular_cells) +
+           " angular cells, which a zone this narrow needs, not " +
+           std::to_string(mesh.angular_cells);
+  return {};
+}
+
 /// On contact that the mesh is too coarse for.
 std::string remark_on_resolution(const MeshSolution& solution, const Result& result) {
   const unsigned int n_nodes = result.contact.active_nodes;
@@ -144,13 +159,16 @@ std::string shortfall_of_error(const RunOptions& options, const Mesh& mesh, cons
                              rounded(wanted, 6);
   if (result.is_interrupted)
     return missed;
-  return missed + "; " +
-         (is_at_finest_level(*mesh.triangulation) &&
-                  result.cycles.size() <= most_cycles(options.mesh) &&
-                  has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options))
-              ? "the smallest cells cannot be cut again: raise Mesh/Radial cells and "
-                "Mesh/Angular cells, or Mesh/Wanted relative error"
-              : "raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error");
+  const bool is_limited =
+      result.cycles.size() > most_cycles(options.mesh) ||
+      !has_room_to_refine(*mesh.triangulation, options.mesh, most_cells(options));
+  if (is_limited)
+    return missed +
+           "; raise Mesh/Most unknowns or Mesh/Adaptive cycles, or Mesh/Wanted relative error";
+  return missed +
+         (is_at_finest_level(*mesh.triangulation) ? "; the smallest cells cannot be cut again"
+                                                  : "; further refinement does not lower it") +
+         ": raise Mesh/Radial cells and Mesh/Angular cells, or Mesh/Wanted relative error";
 }
 
 /// On conditions of contact and equilibrium that do not hold to Residuals::allowed.
@@ -172,8 +190,9 @@ std::vector<Note> notes_on(const RunOptions& options, const Mesh& mesh,
   for (const std::string& remark :
        {remark_on_zone_ends(scene, result), remark_on_depth_outside(scene, result),
         remark_on_certificate(options, result), remark_on_force(result),
-        remark_on_resolution(solution, result), remark_on_displacement(scene, result),
-        remark_on_speed(options), remark_on_curvature(scene)})
+        remark_on_first_mesh(options, scene), remark_on_resolution(solution, result),
+        remark_on_displacement(scene, result), remark_on_speed(options),
+        remark_on_curvature(scene)})
     if (!remark.empty())
       notes.push_back({Note::Kind::remark, remark});
   if (const std::string missed = shortfall_of_error(options, mesh, result); !missed.empty())

@@ -11,6 +11,7 @@
 #include "rollwave/run/make_result.h"
 #include "rollwave/run/solve_on_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -22,7 +23,7 @@ namespace rollwave {
 using namespace dealii;
 
 void check_simulation(const Scene& scene, const RunOptions& options) {
-  check_mesh_size(options.mesh);
+  check_mesh_size(with_enough_cells(scene, options.mesh));
   constexpr double most_nodes = 20000; // a dense factorisation takes some minutes
   const double nodes = count_contact_nodes(scene, options.mesh);
   if (nodes > most_nodes && is_serial(MPI_COMM_WORLD)) // of several, each has its own
@@ -108,12 +109,32 @@ bool is_reached(const RunOptions& options, const std::optional<Certificate>& cer
   return certificate && certificate->error.relative <= options.mesh.wanted_relative_error;
 }
 
-/// True if no further mesh is needed or allowed: the wanted error is reached, the cycles are used
-/// up, or the certificate has failed.
+/// The number of the mesh with the least bound of the error, from 0 on; the last of equal ones.
+unsigned int best_mesh(const std::vector<CycleFigures>& cycles) {
+  const auto best = std::min_element(
+      cycles.rbegin(), cycles.rend(), [](const CycleFigures& one, const CycleFigures& other) {
+        return one.certified.value_or(0) < other.certified.value_or(0);
+      });
+  return cycles.rend() - best - 1;
+}
+
+/// True if refinement towards a wanted error gets nowhere: no bound is finite after many meshes, or
+/// the least one is of a mesh long before.
+bool has_stalled(const RunOptions& options, const std::vector<CycleFigures>& cycles) {
+  constexpr unsigned int most_without_bound = 40, most_without_gain = 8;
+  const unsigned int n_meshes = cycles.size(), best = best_mesh(cycles);
+  const bool has_bound = std::isfinite(cycles[best].certified.value_or(0));
+  return options.mesh.wanted_relative_error > 0 &&
+         (has_bound ? n_meshes - 1 - best >= most_without_gain : n_meshes >= most_without_bound);
+}
+
+/// True if no further mesh is needed or allowed: the wanted error is reached, or will not be, the
+/// cycles are used up, or the certificate has failed.
 bool is_last(const RunOptions& options, const std::optional<Certificate>& certificate,
-             unsigned int n_meshes) {
+             const std::vector<CycleFigures>& cycles, unsigned int most_refinements) {
   const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || n_meshes > most_cycles(options.mesh) || is_reached(options, certificate);
+  return has_failed || cycles.size() > most_refinements || is_reached(options, certificate) ||
+         has_stalled(options, cycles);
 }
 
 std::string interrupted_text(unsigned int n_meshes) {
@@ -135,12 +156,13 @@ void add_stiffness(const System& system, const Load* load, MeshSolution& solutio
       solution.boundary.space().communicator(), solution.notes);
 }
 
-/// The solution of a run from that on its last mesh. @throws BadValue for a load out of reach
+/// The solution of a run from that on its last mesh. @throws BadValue for a load or a nip out of
+/// reach
 Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
                 std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
                 bool is_interrupted, RunStatistics statistics) {
-  if (last.load_refusal)
-    throw BadValue("Road", "Load", *last.load_refusal);
+  if (last.road_refusal)
+    throw BadValue("Road", last.scene.nip ? "Nip" : "Load", *last.road_refusal);
   Result result = make_result(options, mesh, last, certificate, std::move(cycles), is_interrupted,
                               std::move(statistics));
   return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
@@ -149,8 +171,8 @@ Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
 
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
 Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
-                          RunStatistics statistics, const Progress& progress,
-                          std::vector<CycleFigures>& cycles) {
+                          unsigned int most_refinements, RunStatistics statistics,
+                          const Progress& progress, std::vector<CycleFigures>& cycles) {
   PressureProfile pressure; // on the mesh before
   for (;;) {
     System system = make_system(*mesh.space, scene, scene.zone(), statistics);
@@ -165,7 +187,7 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
     dual.reset();
     cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
 
-    const bool ends = is_last(options, certificate, cycles.size());
+    const bool ends = is_last(options, certificate, cycles, most_refinements);
     const bool is_stopped = !ends && is_interrupted(mesh.communicator());
     if (is_stopped)
       solution.notes.push_back({Note::Kind::shortfall, interrupted_text(cycles.size())});
@@ -187,6 +209,30 @@ Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
   }
 }
 
+/// Where the last mesh of a run towards a wanted error has a larger bound than an earlier one,
+/// makes that one again: it is cheaper than to keep a copy of each.
+Solution solve_best(Solution last, const Scene& scene, const RunOptions& options) {
+  constexpr double margin = 1.05; // for less, it is not worth a second run
+  const std::vector<CycleFigures> cycles = last.result.cycles;
+  const unsigned int best = best_mesh(cycles);
+  if (!(options.mesh.wanted_relative_error > 0) || last.result.is_interrupted ||
+      !(cycles.back().certified.value_or(0) > margin * cycles[best].certified.value_or(0)))
+    return last;
+  const MPI_Comm communicator = last.mesh.communicator();
+  RunStatistics statistics = std::move(last.result.statistics);
+  { const Solution freed = std::move(last); }
+  Mesh mesh = make_mesh(scene, options, communicator, statistics);
+  std::vector<CycleFigures> again;
+  Solution solution =
+      solve_and_refine(std::move(mesh), scene, options, best, std::move(statistics), {}, again);
+  solution.result.notes.push_back(
+      {Note::Kind::remark, "further meshes had larger bounds, up to " +
+                               rounded(*cycles.back().certified, 3) + " on mesh " +
+                               std::to_string(cycles.size()) + "; the result is that of mesh " +
+                               std::to_string(best + 1)});
+  return solution;
+}
+
 } // namespace
 
 Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
@@ -198,8 +244,9 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
     throw Interrupted("interrupted before the first mesh was solved");
   std::vector<CycleFigures> cycles;
   try {
-    return solve_and_refine(std::move(mesh), scene, options, std::move(statistics), progress,
-                            cycles);
+    return solve_best(solve_and_refine(std::move(mesh), scene, options, most_cycles(options.mesh),
+                                       std::move(statistics), progress, cycles),
+                      scene, options);
   } catch (const NotEnoughMemory& shortage) {
     if (cycles.empty())
       throw;

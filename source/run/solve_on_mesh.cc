@@ -1,6 +1,7 @@
 #include "rollwave/run/solve_on_mesh.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/run/round_off.h"
@@ -52,25 +53,33 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
           std::max(wanted_residual, relative(round_off, forces))};
 }
 
-/// Finds the distance if a load is given. Then solves the contact problem.
+/// Finds the distance if a load or a nip is given. Then solves the contact problem.
 void solve_contact_on(const ContactOptions& options, const PressureProfile& start,
                       const ContactEquations& equations, const ContactObserver& step_ended,
                       RunStatistics& statistics, MeshSolution& solution) {
   const ContactBoundary& boundary = solution.boundary;
   Vector<double> pressure = start.at(boundary.contact_nodes());
-  if (solution.scene.load) {
+  if (!solution.scene.has_distance()) {
     RoadPosition road = find_distance(equations, boundary, solution.scene, options.most_steps,
                                       pressure, statistics);
     solution.scene = with_distance(solution.scene, road.distance);
-    solution.load_refusal = std::move(road.refusal);
+    solution.road_refusal = std::move(road.refusal);
     if (road.shortfall)
       solution.notes.push_back({Note::Kind::shortfall, *road.shortfall});
     pressure = std::move(road.pressure);
     solution.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
+  const auto observe = [&](const std::vector<ContactStep>& history) {
+    if (step_ended)
+      step_ended(history);
+    // Its steps may be very many.
+    if (options.method == ContactMethod::uzawa && is_interrupted(boundary.space().communicator()))
+      throw Interrupted("interrupted in step " + std::to_string(history.size()) +
+                        " of Uzawa's method");
+  };
   solution.contact =
-      solve_contact(equations, solution.problem, options, pressure, statistics, step_ended);
+      solve_contact(equations, solution.problem, options, pressure, statistics, observe);
   if (!solution.contact.remark.empty())
     solution.notes.push_back({Note::Kind::remark, solution.contact.remark});
 }
@@ -136,6 +145,11 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
   const RunStatistics::Phase phase(statistics, "measurement");
   solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),
                                         solution.problem, solution.contact);
+  if (const auto& given = solution.scene.load; given && scene.nip) {
+    const double load = solution.resultants.loads.of(given->kind);
+    if (load > 0)
+      solution.scene = calibrated(solution.scene, given->value / load);
+  }
   if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
     solution.resultants.loads.work_conjugate.reset();
     solution.notes.push_back({Note::Kind::remark,

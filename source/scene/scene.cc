@@ -110,9 +110,9 @@ double possible_half_width(const Scene& scene, unsigned int angular_cells) {
   }
   // For a given load, the nearest road has the widest contact. Inside of a drum that the surface
   // can fill, all of the surface can touch.
-  if (scene.load && b + limit >= scene.road.greatest_distance())
+  if (!scene.has_distance() && b + limit >= scene.road.greatest_distance())
     return numbers::PI;
-  const Road road = scene.load ? scene.road.at(scene.least_distance) : scene.road;
+  const Road road = scene.has_distance() ? scene.road : scene.road.at(scene.least_distance);
   return std::min({numbers::PI, road.crossing_angle(b), road.crossing_angle(limit) + margin});
 }
 
@@ -161,12 +161,21 @@ Scene with_distance(Scene scene, double c) {
   return scene;
 }
 
+Scene calibrated(Scene scene, double ratio) {
+  scene.units.material.shear_modulus *= ratio;
+  scene.units.material.density *= ratio;
+  if (scene.load)
+    scene.load->value /= ratio;
+  return scene;
+}
+
 Scene scaled_scene(const CylinderOptions& cylinder, const RoadOptions& road,
                    const MaterialOptions& material, unsigned int angular_cells) {
   check_cylinder(cylinder, material);
   const double a = cylinder.inner_radius, b = cylinder.outer_radius;
-  const double least_distance = std::max(a, 0.05 * b); // for a given load
-  const double distance = road.load ? least_distance + (b - least_distance) / 2 : road.distance;
+  const double least_distance = std::max(a, 0.05 * b); // for a given load or nip
+  const double distance =
+      !road.has_distance() ? least_distance + (b - least_distance) / 2 : road.distance;
   check_road(cylinder, road, distance);
 
   Scene scene;
@@ -184,6 +193,13 @@ Scene scaled_scene(const CylinderOptions& cylinder, const RoadOptions& road,
   scene.least_distance = least_distance / unit;
   if (road.load)
     scene.load = Scene::Load{*road.load / scene.units.of(Quantity::force), road.load_kind};
+  if (road.nip)
+    scene.nip = *road.nip / unit;
+  if (scene.load && scene.nip && (scene.force.uniform || scene.force.is_expression()))
+    throw BadValue(
+        "Road", "Nip",
+        "load and nip calibrate the shear modulus where Cylinder/Radial force is 0 only: "
+        "the load is then proportional to it");
   scene.phi = make_obstacle(scene.road);
 
   if (const auto& zone = road.contact_zone) {

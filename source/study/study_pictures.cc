@@ -54,8 +54,12 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
     for (const auto& of_run : {plan.scene_settings, plan.varied})
       for (const Setting& setting : of_run)
         differing.insert(setting.path());
-  if (differing.count("Road/Distance") + differing.count("Road/Load") > 0) // of which one is none
-    differing.insert({"Road/Distance", "Road/Load"});
+  const std::set<std::string> places = {"Road/Distance", "Road/Load", "Road/Nip"};
+  for (const std::string& key : places) // of which one or two are none
+    if (differing.count(key) > 0) {
+      differing.insert(places.begin(), places.end());
+      break;
+    }
   std::string title;
   for (const Key& key : all_keys()) {
     const Setting setting{key.section, key.name, value_of(key, settings), ""};
@@ -117,7 +121,7 @@ std::string label_of(const Study& study, const ResultQuantity& quantity) {
 const ResultQuantity& main_result(const Study& study) {
   const bool has_load =
       std::all_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return plan.parameters.road.load.has_value(); });
+                  [](const RunPlan& plan) { return !plan.parameters.road.has_distance(); });
   return result_quantity(has_load ? "scene.deflection" : "contact.vertical_load");
 }
 
@@ -137,7 +141,7 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
       continue;
     else if (quantity.name != "contact.vertical_load")
       add(x_label_of(study), x, quantity);
-    else if (key == "Distance" || key == "Load")
+    else if (key == "Distance" || key == "Load" || key == "Nip")
       add(label_of(study, deflection), values_in_runs(study, deflection.name), quantity);
     else
       add(x_label_of(study), x, main_result(study));

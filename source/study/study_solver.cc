@@ -171,12 +171,12 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
   if (study.study.true_errors)
     if (const auto exact =
             known_or_computed(exact_solutions, {cylinder, road, material, scene.road.distance},
-                              [&] { return find_exact_solution(scene); })) {
+                              [&] { return find_exact_solution(scene, nullptr, communicator); })) {
       result.errors = measure_true_errors(*solution, *exact);
-      if (scene.load)
+      if (!scene.has_distance())
         result.errors->exact_distance = known_or_computed(
             exact_distances, {cylinder, road, material, 0}, // the same on all meshes
-            [&] { return find_exact_distance(scene); });
+            [&] { return find_exact_distance(scene, communicator); });
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);

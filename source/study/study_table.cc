@@ -82,13 +82,28 @@ void print_first(std::ostream& out, const std::string& title,
         << texts.begin()->first + 1 << ": " << texts.begin()->second << '\n';
 }
 
+/// True if runs have covers of several thicknesses and one shear modulus.
+bool has_one_modulus_for_covers(const Study& study) {
+  std::map<double, double> thickness_of; // by the shear modulus
+  for (const RunPlan& plan : study.plans) {
+    const Parameters& p = plan.parameters;
+    if (!p.material.is_given() || (p.road.load && p.road.nip))
+      continue;
+    const double thickness = p.cylinder.outer_radius - p.cylinder.inner_radius;
+    const auto [known, is_first] = thickness_of.emplace(p.material.shear_modulus, thickness);
+    if (!is_first && known->second != thickness)
+      return true;
+  }
+  return false;
+}
+
 } // namespace
 
 std::string line_of_run(const Study& study, unsigned int run) {
   std::ostringstream line;
   line << run + 1 << " of " << study.plans.size() << "  "
        << label(study.plans[run], study.plans[run].varied) << ":  ";
-  const bool has_load = study.plans[run].parameters.road.load.has_value();
+  const bool has_load = !study.plans[run].parameters.road.has_distance();
   const ResultQuantity& result = result_quantity(has_load               ? "scene.road_distance"
                                                  : study.is_of_scenes() ? "contact.vertical_load"
                                                                         : "contact.force");
@@ -136,6 +151,10 @@ std::string study_text(const Study& study) {
   if (study.has("error.exact_distance"))
     out << "error of c: of the distance for the load; the other errors are those at the computed "
            "distance.\n";
+  if (has_one_modulus_for_covers(study))
+    out << "Note: the thickness varies under one shear modulus, which is an effective one: "
+           "calibrate "
+           "it anew for each thickness, by Road/Load and Road/Nip.\n";
   print_first(out, "Not solved", failures, study.runs.size());
   print_first(out, "Target not reached", shortfalls, study.runs.size());
   print_first(out, "Note", remarks, study.runs.size());

@@ -1,6 +1,7 @@
 #include "rollwave/verify/reference_solution.h"
 
 #include "rollwave/base/errors.h"
+#include "rollwave/base/falling_zero.h"
 #include "rollwave/scene/uniform_force.h"
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 
 namespace rollwave {
 
-std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string* why_none) {
+std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string* why_none,
+                                                 MPI_Comm communicator) {
   const auto give_up = [&](const std::string& why) -> std::optional<ExactSolution> {
     if (why_none)
       *why_none = why;
@@ -24,52 +26,70 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
   try {
     const ExactSolution exact = solve_exactly(
         {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road.distance,
-         scene.force.uniform.value_or(0), narrow, scene.road.curvature});
+         scene.force.uniform.value_or(0), narrow, scene.road.curvature},
+        communicator);
     if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
       return give_up("Road/Contact zone cuts the contact short on one side, or unevenly");
     return exact;
+  } catch (const Interrupted&) {
+    throw;
   } catch (const NotSolved& reason) {
     return give_up(reason.what());
   }
 }
 
-std::optional<double> find_exact_distance(const Scene& scene) {
-  const auto excess = [&](double c) -> std::optional<double> {
-    const auto exact = find_exact_solution(with_distance(scene, c));
-    if (!exact)
-      return {};
-    return exact->loads.of(scene.load->kind) - scene.load->value;
-  };
-  // The secant method from the distance found on the mesh, which is close. Each exact solution
-  // takes about a second.
-  constexpr double first_step = 1e-6, tolerance = 1e-11;
-  constexpr int most_steps = 20;
-  double before = scene.road.distance, c = before * (1 + first_step);
-  std::optional<double> excess_before = excess(before);
-  for (int step = 0; step < most_steps && excess_before; ++step) {
-    const std::optional<double> excess_here = excess(c);
-    if (!excess_here)
-      return {};
-    const double next = c - *excess_here * (c - before) / (*excess_here - *excess_before);
-    if (std::abs(next - c) <= tolerance * c)
-      return next;
-    before = c;
-    excess_before = excess_here;
-    c = next;
-  }
-  return {};
+namespace {
+
+/// How deep the free surface would lie in a road at the distance @p c; negative above it.
+double free_depth(const Scene& scene, double c) {
+  return scene.outer_radius - c +
+         scene.force.uniform.value_or(0) * contact_free_unit_displacement(scene.inner_radius,
+                                                                          scene.outer_radius,
+                                                                          scene.outer_radius);
 }
 
-std::optional<double> find_exact_stiffness(const Scene& scene) {
-  const double free = scene.force.uniform.value_or(0) *
-                      contact_free_unit_displacement(scene.inner_radius, scene.outer_radius,
-                                                     scene.outer_radius),
-               depth = scene.outer_radius + free - scene.road.distance;
+} // namespace
+
+std::optional<double> find_exact_distance(const Scene& scene, MPI_Comm communicator) {
+  const double wanted = scene.nip ? *scene.nip : scene.load->value;
+  // The exact load or nip above the wanted one. Without contact the gap counts as a negative one.
+  const auto excess_at = [&](double distance) {
+    const Scene moved = with_distance(scene, distance);
+    const auto exact = find_exact_solution(moved, nullptr, communicator);
+    if (!exact)
+      throw NotSolved("no exact solution is known at a distance that the search tries");
+    constexpr double accuracy = 3e-11;
+    const double reached = scene.nip ? 2 * moved.road.arc_length(exact->half_width)
+                                     : exact->loads.of(scene.load->kind),
+                 excess = reached - wanted + (reached > 0 ? 0 : free_depth(scene, distance));
+    return std::abs(excess) <= accuracy * wanted ? 0 : excess;
+  };
+  try {
+    const double start = scene.road.distance, at_start = excess_at(start);
+    // Twice the step if a load grew like the depth, and a nip like its root.
+    const double depth = std::abs(free_depth(scene, start)), reached = wanted + at_start,
+                 first_step =
+                     std::max(2 * depth * (reached > 0 ? std::abs(at_start) / reached : 1) *
+                                  (scene.nip ? 2 : 1),
+                              1e-9 * start);
+    const auto [left, right] =
+        falling_zero(excess_at, start, at_start, first_step,
+                     {scene.least_distance, scene.road.greatest_distance()}, 1e-11);
+    return (left + right) / 2;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const NotSolved&) {
+    return {};
+  }
+}
+
+std::optional<double> find_exact_stiffness(const Scene& scene, MPI_Comm communicator) {
+  const double c = scene.road.distance, depth = free_depth(scene, c);
   if (depth <= 0)
     return {};
-  const double c = scene.road.distance, step = 1e-3 * depth;
-  const auto nearer = find_exact_solution(with_distance(scene, c - step)),
-             farther = find_exact_solution(with_distance(scene, c + step));
+  const double step = 1e-3 * depth;
+  const auto nearer = find_exact_solution(with_distance(scene, c - step), nullptr, communicator),
+             farther = find_exact_solution(with_distance(scene, c + step), nullptr, communicator);
   if (!nearer || !farther)
     return {};
   return (nearer->loads.vertical - farther->loads.vertical) / (2 * step);

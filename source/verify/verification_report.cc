@@ -39,7 +39,7 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
                          const ExactSolution& exact, std::optional<double> exact_stiffness) {
   const Units& units = scene.units;
   TableHandler table;
-  const std::string exact_title = scene.load ? "exact at this distance" : "exact";
+  const std::string exact_title = scene.has_distance() ? "exact" : "exact at this distance";
   const auto add = [&](const std::string& name, const std::string& words, double theirs,
                        double accuracy) {
     const ResultQuantity& quantity = result_quantity(name);
@@ -66,10 +66,11 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
   if (exact_stiffness && std::isfinite(result_quantity(stiffness).value(result).value_or(NAN)))
     add(stiffness, "vertical stiffness", *exact_stiffness, 0);
   if (result.errors && result.errors->exact_distance)
-    add("scene.road_distance", "distance c (exact: for the load)", *result.errors->exact_distance,
-        1e-10);
+    add("scene.road_distance",
+        std::string("distance c (exact: for the ") + (scene.nip ? "nip)" : "load)"),
+        *result.errors->exact_distance, 1e-10);
   out << "\nVerification against the semi-analytic solution";
-  if (scene.load)
+  if (!scene.has_distance())
     out << " at the computed distance " << rounded(result.road_distance * units.length, 9)
         << units.after(Quantity::length);
   out << '\n';

@@ -12,9 +12,14 @@ namespace rollwave {
  * The usual criterion N_i + kappa (u_i - phi_i) > 0 gives the same set for every kappa > 0 if the
  * solves are exact. The method therefore has no kappa.
  *
- * A set seen before would begin a cycle. From then on only the first node of the wrong sign changes
- * in each step, the least-index rule, which ends for every symmetric positive definite matrix (K.
- * G. Murty, Opsearch 11 (1974); J. J. Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
+ * Where contact has only shrunk for three steps, ever more neighbours of the nodes that leave are
+ * released as well, twice as many in each step: an end of contact on cells that are stretched along
+ * r moves by a node or two in a plain step. Nodes released too many penetrate and return at once.
+ *
+ * A set seen before would begin a cycle. First these long steps are given up; if it happens again,
+ * only the first node of the wrong sign changes in each step from then on, the least-index rule,
+ * which ends for every symmetric positive definite matrix (K. G. Murty, Opsearch 11 (1974); J. J.
+ * Judice and F. M. Pires, Comput. Oper. Res. 21 (1994)).
  *
  * @param start nodal pressures: nodes with a positive one are active at first. If it is empty, no
  *        node is.

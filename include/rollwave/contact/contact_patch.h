@@ -32,6 +32,9 @@ struct ContactResultants {
 
   /// Half of the length in contact, an angle.
   double half_width() const;
+
+  /// The nip: the length of road under all patches.
+  double length() const;
 };
 
 /**

@@ -38,35 +38,38 @@ std::optional<Loads> contact_stiffness(const ContactEquations& equations,
 /// One step of the search for the distance.
 struct DistanceStep {
   double distance;            ///< a length
-  double load;                ///< of the kind of Scene::load
+  double load;                ///< of the kind of Scene::load, or vertical
+  double nip;                 ///< the length of contact
   unsigned int contact_steps; ///< of the active set method
 };
 
-/// A distance with the load and the nodal pressures there, and the steps that led to it.
+/// A distance with the nodal pressures there, and the steps that led to it.
 struct RoadPosition {
   double distance;
-  double load; ///< of the kind of Scene::load
   dealii::Vector<double> pressure;
   std::vector<DistanceStep> history = {};
 
-  /// Why no distance gives the load on this mesh; the distance is then the one with the nearest
-  /// load. Finer meshes may reach it.
+  /// Why no distance gives the load or the nip on this mesh; the distance is then the one with the
+  /// nearest. Finer meshes may reach it.
   std::optional<std::string> refusal = {};
 
-  /// How far the load is from that of Scene::load, where that is more than 1e-9 of it.
+  /// How far the load is from that of Scene::load, where that is more than 1e-9 of it, or the nip
+  /// from Scene::nip, where that is more than a hundredth.
   std::optional<std::string> shortfall = {};
 };
 
 /**
- * The road's distance at which the load is that of Scene::load, by Newton's method within a
- * bracket, to 1e-10 of the load or as near as neighbouring distances in double precision allow.
+ * The road's distance at which the length of contact is Scene::nip, or, where none is given, the
+ * load is that of Scene::load: by falling_zero(), to 1e-10 of it or as near as neighbouring
+ * distances in double precision allow. On one mesh the length jumps by a little where a node enters
+ * contact.
  * The active set method finds the contact for each distance, beginning with that of the distance
  * before. The first is that of @p scene, with the pressures @p start.
  *
- * The load is out of reach on this mesh where a road at Scene::least_distance carries less, or a
- * drum around the cylinder carries more at every distance.
+ * Load or nip are out of reach on this mesh where a road at Scene::least_distance has less, or a
+ * drum around the cylinder has more at every distance.
  *
- * @throws NotSolved as active_set(), or after 100 trials.
+ * @throws NotSolved as active_set() and falling_zero()
  */
 RoadPosition find_distance(const ContactEquations& equations, const ContactBoundary& boundary,
                            const Scene& scene, unsigned int most_steps,

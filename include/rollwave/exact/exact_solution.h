@@ -4,6 +4,8 @@
 #include "rollwave/exact/gegenbauer_pressure.h"
 #include "rollwave/scene/loads.h"
 
+#include <mpi.h>
+
 namespace rollwave {
 
 /**
@@ -44,7 +46,8 @@ struct ExactSolution {
   GegenbauerPressure pressure = {lowest_point, 1, 1, {0.}};
 };
 
-/// @throws NotSolved when the series does not converge.
-ExactSolution solve_exactly(const ExactScene& scene);
+/// All processes of @p communicator call it with the same scene.
+/// @throws NotSolved when the series does not converge, Interrupted when the user ends it.
+ExactSolution solve_exactly(const ExactScene& scene, MPI_Comm communicator = MPI_COMM_SELF);
 
 } // namespace rollwave

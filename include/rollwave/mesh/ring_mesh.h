@@ -37,22 +37,27 @@ struct MeshOptions {
 /// The number of unknowns of the first mesh; nodes on the hub are not unknowns.
 double count_unknowns(const MeshOptions& mesh);
 
+/// The options with as many cells as @p scene needs: from a small hub outwards radii grow at most
+/// fourfold from vertex to vertex, and around a given zone that is narrower than a cell there are
+/// four columns.
+MeshOptions with_enough_cells(const Scene& scene, MeshOptions mesh);
+
 /// @throws BadValue when the first mesh would have more than `Mesh/Most unknowns` unknowns.
 void check_mesh_size(const MeshOptions& mesh);
 
 /**
- * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), refined
- * `Mesh/Global refinements` times, periodic over the seam. Heights grow geometrically near a small
- * hub. If `Road/Contact zone` is given, its ends are vertices, and cells inside and outside of it
- * differ in length: a zone that ended inside of cells would cut the contact short at another place
- * on every mesh. Where the zone is narrower than half a cell, cells at its ends are cut in four
- * until they are as narrow.
+ * The mesh of `Mesh/Radial cells` times `Mesh/Angular cells` equal rectangles in (r, z), or more by
+ * with_enough_cells(), refined `Mesh/Global refinements` times, periodic over the seam. Heights
+ * grow geometrically near a small hub. If `Road/Contact zone` is given, its ends are vertices, and
+ * cells inside and outside of it differ in length: a zone that ended inside of cells would cut the
+ * contact short at another place on every mesh. Where the zone is narrower than half a cell, cells
+ * at its ends are cut in four until they are as narrow.
  *
  * On several processes each has a part of the refined mesh, and the coarse one as a whole.
  *
  * @throws BadValue as check_mesh_size(), NotEnoughMemory.
  */
 std::unique_ptr<dealii::Triangulation<2>>
-make_ring_mesh(const Scene& scene, const MeshOptions& mesh, MPI_Comm communicator);
+make_ring_mesh(const Scene& scene, const MeshOptions& options, MPI_Comm communicator);
 
 } // namespace rollwave

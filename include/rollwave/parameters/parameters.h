@@ -46,7 +46,7 @@ std::vector<Setting> read_settings(const std::filesystem::path& file,
 
 /**
  * The parameters with further values, which override theirs. The later one of `Road/Distance` and
- * `Road/Load` replaces the other.
+ * of `Road/Load` or `Road/Nip` replaces the other.
  *
  * @throws BadInput for a distance and a load of the same origin, such as the command line
  */

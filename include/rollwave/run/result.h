@@ -104,9 +104,13 @@ struct Result {
   Energy energy;
   Residuals residuals;
   std::optional<CertifiedError> certified;
+
+  /// The calibrated shear modulus, which is that of the scene, over the given one; where load and
+  /// nip are both given.
+  std::optional<double> modulus_ratio;
   std::optional<TrueErrors> errors;           ///< where a comparison was asked for
   std::vector<CycleFigures> cycles;           ///< one for each mesh
-  std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load is given
+  std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load or nip is given
   std::vector<ContactStep> history;           ///< on the last mesh
   std::optional<StepLength> step_length;      ///< of Uzawa's method
   std::vector<Note> notes;

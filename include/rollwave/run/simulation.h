@@ -16,7 +16,7 @@ namespace rollwave {
 
 /// A solved scene with its field.
 struct Solution {
-  Scene scene; ///< with the distance that a given load needs
+  Scene scene; ///< with the distance, and the shear modulus, that a given load or nip needs
   Mesh mesh;
   FieldVector displacement; ///< u_h
   std::optional<Certificate> certificate;
@@ -32,7 +32,9 @@ void check_simulation(const Scene& scene, const RunOptions& options);
 /**
  * Solves @p scene on the mesh and by the methods of @p options; with adaptive cycles: solve,
  * certify, mark, refine, beginning each contact iteration with the pressure of the mesh before.
- * Result::shortfalls says which targets were not reached.
+ * Result::shortfalls says which targets were not reached. Towards a wanted error the run ends after
+ * 40 meshes without a finite bound, or 8 without a smaller one, and the mesh with the smallest
+ * bound counts.
  *
  * When the user interrupts it, the current mesh is the last one: its solution, certified where that
  * was asked for, is returned, and Result::is_interrupted is set if anything is missing.
@@ -57,7 +59,8 @@ struct SharedObjects {
 /// Solves a scene without refinement on objects that belong to the same radii, mesh options, speed
 /// and force, and whose zone contains that of the scene.
 /// @param statistics work and seconds of making the objects, if they are to be part of the result
-/// @throws BadValue for a load that no distance gives; NotSolved as solve_on_mesh(); Interrupted
+/// @throws BadValue for a load or a nip that no distance gives; NotSolved as solve_on_mesh();
+/// Interrupted
 Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
                          const RunOptions& options, RunStatistics statistics);
 

@@ -36,14 +36,14 @@ private:
 
 /// The discrete problem and its solution on one mesh.
 struct MeshSolution {
-  Scene scene;              ///< with the distance that a given load needs
+  Scene scene; ///< with the distance, and the shear modulus, that a given load or nip needs
   ContactBoundary boundary; ///< of the scene's zone
   ContactProblem problem = {};
   ContactSolution contact = {};
   FieldVector displacement = {}; ///< u_h
   ContactResultants resultants = {};
-  std::vector<DistanceStep> distance_history = {}; ///< where a load is given
-  std::optional<std::string> load_refusal = {};    ///< see RoadPosition::refusal
+  std::vector<DistanceStep> distance_history = {}; ///< where a load or a nip is given
+  std::optional<std::string> road_refusal = {};    ///< see RoadPosition::refusal
   Energy energy = {};                              ///< of u_h
   Residuals residuals = {};
   std::vector<Note> notes = {};

@@ -31,11 +31,15 @@ struct CylinderOptions {
 struct RoadOptions {
   double distance = 0.8;
   std::optional<double> load; ///< a force
+  std::optional<double> nip;  ///< the length of contact
   LoadKind load_kind = LoadKind::vertical;
   double curvature = 0;
   std::optional<std::pair<double, double>> contact_zone; ///< angles; nullopt: automatic
 
-  auto members() const { return std::tie(distance, load, load_kind, curvature, contact_zone); }
+  auto members() const { return std::tie(distance, load, nip, load_kind, curvature, contact_zone); }
+  /// False if the distance is a result.
+  bool has_distance() const { return !load && !nip; }
+
   bool operator==(const RoadOptions& other) const { return members() == other.members(); }
 };
 
@@ -90,7 +94,7 @@ struct Scene {
 
   Units units = {}; ///< of the scene, in the user's
 
-  Road road = {}; ///< its distance is a first guess if the load is given
+  Road road = {}; ///< its distance is a first guess if load or nip are given
 
   /// The load that is given instead of the distance, a length.
   struct Load {
@@ -98,6 +102,14 @@ struct Scene {
     LoadKind kind;
   };
   std::optional<Load> load = {};
+
+  /// The length of contact that is given instead of the distance, a length. If the load is given as
+  /// well, the shear modulus is a result: see calibrated().
+  std::optional<double> nip = {};
+
+  /// False if the distance is a result.
+  bool has_distance() const { return !load && !nip; }
+
   double least_distance = 0;   ///< lower limit of the distance
   bool has_given_zone = false; ///< true if the user gave the zone
 
@@ -113,6 +125,10 @@ std::string force_not_finite_at(const Scene& scene, double r, double z);
 
 /// The scene with its road moved to the distance @p c below the axle, a length. The zone stays.
 Scene with_distance(Scene scene, double c);
+
+/// The scene with @p ratio times its shear modulus and density, so that the wave speed stays. All
+/// of its numbers stay but the load that is given, which is relative to the shear modulus.
+Scene calibrated(Scene scene, double ratio);
 
 /**
  * The scene that options describe, in its units.
