@@ -121,7 +121,7 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       scene = make_scene(parameters);
     const auto older = prepare_directory(parameters,
                                          is_study ? study_file_names(parameters)
-                                                  : result_file_names(parameters.output.files),
+                                                  : result_file_names(parameters.output),
                                          communicator);
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <regex>
 
 namespace {
 
@@ -81,7 +82,7 @@ protected:
   std::string drawn(const rollwave::Picture& picture) {
     fs::create_directories(directory / "out");
     rollwave::WrittenFiles written;
-    rollwave::draw({picture}, directory / "out", written);
+    rollwave::draw({picture}, directory / "out", rollwave::PictureFormat::svg, written);
     EXPECT_TRUE(written.remarks.empty()) << written.remarks.front();
     return read(picture.name + ".svg");
   }
@@ -294,19 +295,119 @@ TEST_F(Pictures, LongNamesHaveRoomInTheLegend) {
   }
 }
 
-TEST_F(Pictures, MapHasTheRowsOfTheTable) {
-  run({"Study/Vary=Road/Distance = 0.8 | 0.7 | 0.9; Cylinder/Angular velocity = 1 | 0",
-       "Mesh/Degree=1"});
+TEST_F(Pictures, MapHasACellForEachRow) {
+  run({"Study/Vary=Road/Distance = 0.8 : 0.68 : -0.02; Cylinder/Angular velocity = 0 : 0.9 : 0.15",
+       "Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=48", "Output/Files=plot"});
   Rows expected;
   for (const CsvRow& row : csv_rows(read("study.csv")))
     expected.push_back({number(row, "Road/Distance"), number(row, "Cylinder/Angular velocity"),
                         number(row, "contact.vertical_load")});
   std::sort(expected.begin(), expected.end());
   const Rows points = blocks_of(read("study-map.gp"))["$map"];
+  ASSERT_EQ(points.size(), 49u);
   ASSERT_EQ(points.size(), expected.size());
-  for (unsigned int i = 0; i < points.size(); ++i)
+  for (unsigned int i = 0; i < points.size(); ++i) {
     for (unsigned int k = 0; k < 3; ++k)
       EXPECT_NEAR(points[i][k], expected[i][k], 1e-8);
+    const std::vector<double> cell = {points[i][0] - 0.01, points[i][0] + 0.01,
+                                      points[i][1] - 0.075, points[i][1] + 0.075};
+    for (unsigned int k = 0; k < 4; ++k)
+      EXPECT_NEAR(points[i][3 + k], cell[k], 1e-8);
+  }
+}
+
+// Six curves can be told apart.
+TEST_F(Pictures, CurvesTakeThePlaceOfAMapWithFewValuesOfAKey) {
+  run({"Study/Vary=Road/Distance = 0.8 : 0.7 : -0.01; Cylinder/Angular velocity = 0 | 1",
+       "Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=48", "Output/Files=plot"});
+  EXPECT_FALSE(has("study-map.svg"));
+  EXPECT_TRUE(has("study-curves.svg"));
+}
+
+TEST_F(Pictures, MapsHaveAtMostAMegabyte) {
+  std::vector<std::vector<std::array<double, 3>>> lines(300);
+  for (unsigned int i = 0; i < lines.size(); ++i)
+    for (unsigned int j = 0; j < 400; ++j)
+      lines[i].push_back({{1. * i, 1. * j, std::sin(0.02 * i) * j}});
+  EXPECT_LT(drawn(rollwave::plot_map("", "x", "y", "value", lines)).size(), 1000000u);
+}
+
+TEST(Spread, HasFirstAndLast) {
+  using rollwave::spread;
+  EXPECT_EQ(spread(3, 6), (std::vector<unsigned int>{0, 1, 2}));
+  EXPECT_EQ(spread(51, 6), (std::vector<unsigned int>{0, 10, 20, 30, 40, 50}));
+  EXPECT_EQ(spread(1000001, 3), (std::vector<unsigned int>{0, 500000, 1000000}));
+  EXPECT_EQ(spread(1, 6), (std::vector<unsigned int>{0}));
+  EXPECT_TRUE(spread(0, 6).empty());
+}
+
+/// The titles of the curves of a script.
+std::vector<std::string> titles_of(const std::string& script) {
+  static const std::regex title("title '([^']+)'");
+  std::vector<std::string> titles;
+  const std::string plots = script.substr(script.find("\nplot "));
+  for (std::sregex_iterator match(plots.begin(), plots.end(), title), end; match != end; ++match)
+    titles.push_back((*match)[1]);
+  return titles;
+}
+
+TEST_F(Pictures, ProfilesHaveTheSameValuesOfTheFastestKey) {
+  run({"Study/Vary=Road/Curvature = 0 | 1/3; Road/Distance = 0.7 : 0.82 : 0.02", "Mesh/Degree=1",
+       "Output/Files=plot"});
+  const auto titles = titles_of(read("study-profiles.gp"));
+  ASSERT_EQ(titles.size(), 6u);
+  const auto distance = [](const std::string& title) { return title.substr(title.find("c = ")); };
+  for (unsigned int i = 0; i < 3; ++i) {
+    EXPECT_NE(titles[i], titles[3 + i]);
+    EXPECT_EQ(distance(titles[i]), distance(titles[3 + i]));
+  }
+  EXPECT_NE(distance(titles[0]), distance(titles[1]));
+}
+
+TEST_F(Pictures, TitlesHaveNumbersOfFiveDigits) {
+  const std::vector<std::string> third = {
+      "Cylinder/Inner radius=10/3", "Cylinder/Outer radius=20/3", "Road/Curvature=1/30",
+      "Material/Shear modulus=4.5/3", "Cylinder/Angular velocity=1/30"};
+  const auto expect_short = [&](const std::string& picture) {
+    static const std::regex digits("[0-9.]{8,}");
+    const std::string script = read(picture);
+    const std::string plots = script.substr(script.find("\nset multiplot"));
+    const std::string title = plots.substr(0, plots.find('\n', 1));
+    EXPECT_FALSE(std::regex_search(title, digits)) << title;
+    for (const std::string& curve : titles_of(script))
+      EXPECT_FALSE(std::regex_search(curve, digits)) << curve;
+  };
+  auto settings = third;
+  settings.push_back("Road/Distance=17/3");
+  run(settings);
+  expect_short("scene.gp");
+  settings = third;
+  settings.push_back("Study/Vary=Road/Distance = 16/3 | 17/3");
+  run(settings);
+  expect_short("study-profiles.gp");
+}
+
+TEST_F(Pictures, KeysThatVaryTogetherDrawNoZigzag) {
+  run({"Study/Vary=Mesh/Radial cells & Mesh/Angular cells = 2 & 48 | 4 & 48 | 2 & 96",
+       "Mesh/Degree=1", "Output/Files=plot"});
+  EXPECT_FALSE(has("study.svg"));
+  fs::remove_all(directory / "out");
+  run({"Study/Vary=Mesh/Radial cells & Mesh/Angular cells = 2 & 48 | 4 & 96", "Mesh/Degree=1",
+       "Output/Files=plot"});
+  EXPECT_TRUE(has("study.svg"));
+}
+
+TEST_F(Pictures, HaveTheFormatThatIsGiven) {
+  for (const auto& [format, begin] :
+       {std::pair("svg", "<?xml"), {"png", "\x89PNG"}, {"pdf", "%PDF"}}) {
+    run({"Output/Files=plot", std::string("Output/Picture format=") + format});
+    const std::string name = std::string("scene.") + format, picture = read(name);
+    EXPECT_EQ(picture.rfind(begin, 0), 0u) << format;
+    fs::remove(directory / "out" / name);
+    const Outcome outcome = shell("cd '" + (directory / "out").string() + "' && gnuplot scene.gp");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+    EXPECT_TRUE(has(name));
+  }
 }
 
 TEST_F(Pictures, ContoursOfASmallMapHaveLabels) {

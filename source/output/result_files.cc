@@ -59,16 +59,16 @@ Parameters parameters_used(const Parameters& given, const Result& result) {
 
 } // namespace
 
-std::vector<std::string> result_file_names(const std::set<OutputFile>& kinds) {
+std::vector<std::string> result_file_names(const OutputOptions& output) {
   const std::map<OutputFile, std::vector<std::string>> names_of = {
       {OutputFile::summary, {"summary.json"}},
       {OutputFile::contact, {"contact.csv"}},
       {OutputFile::parameters, {"parameters.prm"}},
       {OutputFile::solution, {"solution.vtu"}},
       {OutputFile::surface, {"surface.vtu", "road.vtu"}},
-      {OutputFile::plot, picture_files("scene")}};
+      {OutputFile::plot, picture_files("scene", output.picture_format)}};
   std::vector<std::string> names;
-  for (const OutputFile kind : kinds)
+  for (const OutputFile kind : output.files)
     names.insert(names.end(), names_of.at(kind).begin(), names_of.at(kind).end());
   return names;
 }
@@ -109,7 +109,8 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
   write_summary(directory, parameters, solution, written);
   if (parameters.wants(OutputFile::plot) && is_first) { // last, since gnuplot may hang
     const RunStatistics::Phase phase(result.statistics, "output");
-    draw({plot_scene(scene, result)}, directory, written);
+    draw({plot_scene(scene, parameters, result)}, directory, parameters.output.picture_format,
+         written);
   }
   if (failure)
     std::rethrow_exception(failure);

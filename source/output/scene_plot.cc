@@ -1,6 +1,9 @@
 #include "rollwave/output/scene_plot.h"
 
 #include "rollwave/base/text.h"
+#include "rollwave/parameters/parameters.h"
+#include "rollwave/run/quantities.h"
+#include "rollwave/scene/expression.h"
 #include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 
@@ -8,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <string>
+#include <utility>
 
 namespace rollwave {
 
@@ -36,28 +41,49 @@ double abscissa(const Scene& scene, double x) {
   return scene.road.arc_length(x) * scene.units.length;
 }
 
-/// The title as the inside of a string of gnuplot in single quotes.
-std::string title_of(const Scene& scene, const Result& result) {
+/// The scene, the material and the results, a line for each.
+std::string title_of(const Scene& scene, const Parameters& parameters, const Result& result) {
   const Units& units = scene.units;
-  const auto in_units = [&](double number, Quantity quantity) {
-    return rounded(number * units.of(quantity), 6) + units.after(quantity);
+  constexpr int digits = 5;
+  const auto in_units = [&](const std::string& name, double number, Quantity quantity) {
+    return name + " = " + rounded(number * units.of(quantity), digits) + units.after(quantity);
   };
-  std::ostringstream title;
-  title.precision(4);
-  title << "a = " << in_units(scene.inner_radius, Quantity::length)
-        << ", b = " << in_units(scene.outer_radius, Quantity::length)
-        << ", c = " << in_units(scene.road.distance, Quantity::length)
-        << ", omega / critical = " << scene.angular_velocity * scene.outer_radius
-        << ", vertical load = " << in_units(result.contact.loads.vertical, Quantity::force);
-  if (units.material.is_given())
-    title << "'.\"\\n\".'"
-          << "mu = " << units.material.shear_modulus << units.after(Quantity::pressure)
-          << ", rho = " << units.material.density << units.after(Quantity::density)
-          << ", width = " << units.material.width << units.after(Quantity::length);
+  std::string problem = in_units("a", scene.inner_radius, Quantity::length) + ", " +
+                        in_units("b", scene.outer_radius, Quantity::length) + ", " +
+                        in_units("c", scene.road.distance, Quantity::length) + ", ";
   if (scene.road.curvature != 0)
-    title << ", kappa b = " << scene.road.curvature * scene.outer_radius;
-  title << "; Q" << result.mesh.degree << ", " << (result.step_length ? "Uzawa" : "active set");
-  return title.str();
+    problem += in_units("kappa", scene.road.curvature, Quantity::curvature) + ", ";
+  problem += in_units("omega", scene.angular_velocity, Quantity::angular_velocity);
+  if (scene.angular_velocity > 0)
+    problem += " (" + rounded(scene.angular_velocity * scene.outer_radius, 3) + " critical)";
+  const std::string& force = parameters.cylinder.radial_force;
+  if (scene.force) {
+    const auto number = value_if_any(force);
+    problem += ", f = " + (number ? rounded(*number, digits) + units.after(Quantity::force_density)
+                                  : printable(force, 60));
+  }
+  const MaterialOptions& material = units.material;
+  std::string title = in_single_quotes(problem);
+  if (material.is_given())
+    title += ".\"\\n\"." + in_single_quotes("mu = " + rounded(material.shear_modulus, digits) +
+                                            units.after(Quantity::pressure) +
+                                            ", rho = " + rounded(material.density, digits) +
+                                            units.after(Quantity::density) +
+                                            ", width = " + rounded(material.width, digits) +
+                                            units.after(Quantity::length));
+  std::string results;
+  for (const auto& [words, name] : {std::pair("vertical load", "contact.vertical_load"),
+                                    {"nip", "contact.length"},
+                                    {"peak pressure", "contact.peak_pressure"}}) {
+    const ResultQuantity& quantity = result_quantity(name);
+    const auto value = quantity.in_users_units(result, units);
+    if (value && std::isfinite(*value))
+      results += std::string(words) + " = " + rounded(*value, digits) +
+                 units.after(quantity.quantity) + ", ";
+  }
+  return title + ".\"\\n\"." +
+         in_single_quotes(results + 'Q' + std::to_string(result.mesh.degree) + ", " +
+                          (result.step_length ? "Uzawa" : "active set"));
 }
 
 /// The data of the panels.
@@ -155,7 +181,7 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 
 } // namespace
 
-Picture plot_scene(const Scene& scene, const Result& result) {
+Picture plot_scene(const Scene& scene, const Parameters& parameters, const Result& result) {
   constexpr unsigned int width = 1100, height = 640;
   // The frame of the zoom has 0.40 of the width and 0.25 of the height.
   const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
@@ -176,7 +202,7 @@ Picture plot_scene(const Scene& scene, const Result& result) {
          << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
          << "\nends = '" << (result.contact.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
-         << "\nset multiplot title '" << title_of(scene, result) << "'\n"
+         << "\nset multiplot title " << title_of(scene, parameters, result) << " font ',13'\n"
          << pictures;
   for (const ContactPatch& patch : result.contact.patches)
     for (const double z : {patch.begin, patch.end})

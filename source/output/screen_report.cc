@@ -79,11 +79,12 @@ void report_history(std::ostream& out, const Result& result, const Units& units)
         << " left out\n";
 }
 
-/// The first file with this ending; empty without one.
-std::string first_file(const WrittenFiles& written, const std::string& ending) {
+/// The first file with one of these endings; empty without one.
+std::string first_file(const WrittenFiles& written, const std::vector<std::string>& endings) {
   for (const auto& file : written.files)
-    if (boost::algorithm::ends_with(file.string(), ending))
-      return file.string();
+    for (const std::string& ending : endings)
+      if (boost::algorithm::ends_with(file.string(), ending))
+        return file.string();
   return "";
 }
 
@@ -249,9 +250,8 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
     out << "  " << file.string() << '\n';
   for (const std::string& remark : written.remarks)
     out << "Note: " << remark << '\n';
-  if (const std::string picture = first_file(written, ".svg"); !picture.empty()) {
-    const std::string field =
-        first_file(written, "study.pvd") + first_file(written, "solution.vtu"); // one of them
+  if (const std::string picture = first_file(written, {".svg", ".png", ".pdf"}); !picture.empty()) {
+    const std::string field = first_file(written, {"study.pvd", "solution.vtu"}); // one of them
     out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field
         << '\n';
   }

@@ -73,12 +73,17 @@ void declare_output(Section<OutputOptions> keys) {
       },
       "Files to write in addition to parameters.prm: any of summary (summary.json), contact "
       "(contact.csv), solution (solution.vtu), surface (surface.vtu, road.vtu), plot (scene.svg; "
-      "study.svg of a study).");
+      "study-curves.svg and others of a study).");
   keys.add_choice(
       "Cells", &OutputOptions::cells,
       {{"high-order", CellKind::high_order}, {"linear", CellKind::linear}},
       "Cells of solution.vtu for degree 2 and more. \"high-order\": VTK's Lagrange cells, with "
       "curved edges. \"linear\": each cell cut into four-node cells, for every reader.");
+  keys.add_choice(
+      "Picture format", &OutputOptions::picture_format,
+      {{"svg", PictureFormat::svg}, {"png", PictureFormat::png}, {"pdf", PictureFormat::pdf}},
+      "Format of the pictures, which is the ending of their names: svg for web pages and drawing "
+      "programs, png for word processors, pdf for LaTeX.");
   keys.declare(
       "Unit names", "",
       [](Setting& setting) {

@@ -29,7 +29,7 @@ void declare_cylinder(Section<CylinderOptions> keys) {
   keys.add("Angular velocity", &CylinderOptions::angular_velocity, {0, huge},
            "Angular velocity omega of rolling: radians per unit of time, from 0 to the critical "
            "speed, (mu/rho)^(1/2)/b with mu and rho of section Material.",
-           {Affects::titles, "ω", Quantity::angular_velocity});
+           {Affects::titles, "omega", Quantity::angular_velocity});
   keys.declare(
       "Radial force", CylinderOptions().radial_force,
       [](Setting& setting) {
@@ -46,11 +46,11 @@ void declare_material(Section<MaterialOptions> keys) {
   keys.add("Shear modulus", &MaterialOptions::shear_modulus, range,
            "Shear modulus mu: a pressure, from 1e-30 to 1e30, in any consistent system of units. "
            "With 1, pressures and forces are relative to the shear modulus.",
-           {0, "μ", Quantity::pressure});
+           {0, "mu", Quantity::pressure});
   keys.add("Density", &MaterialOptions::density, range,
            "Density rho: a mass per volume, from 1e-30 to 1e30. With density and shear modulus 1, "
            "the angular velocity is relative to the wave speed.",
-           {0, "", Quantity::density});
+           {0, "rho", Quantity::density});
   keys.add("Width", &MaterialOptions::width, range,
            "Width of the cylinder along its axle: a length, from 1e-30 to 1e30. With 1, forces, "
            "energies and stiffness are per unit of length of the axle.",
@@ -99,7 +99,7 @@ void declare_road(Section<RoadOptions> keys) {
   keys.add("Curvature", &RoadOptions::curvature, any_number,
            "Curvature kappa of the road: one over a length. 0: flat; positive: the outside of a "
            "drum; negative: the inside of a drum, with -1/kappa > b.",
-           {0, "κ"});
+           {0, "kappa", Quantity::curvature});
   keys.declare(
       "Contact zone", "auto",
       [](Setting& setting) {

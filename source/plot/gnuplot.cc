@@ -11,6 +11,7 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <map>
 #include <string>
 
 namespace rollwave {
@@ -40,39 +41,97 @@ std::string in_single_quotes(const std::string& text) {
   return '\'' + line + '\'';
 }
 
-std::vector<std::string> picture_files(const std::string& name) {
-  return {name + ".gp", name + ".svg"};
+unsigned int size_of_letters(double n_letters, double width, unsigned int largest) {
+  constexpr double width_over_size = 0.62; // of a letter, as of most fonts without serifs
+  return std::clamp<double>(width / (width_over_size * n_letters), 1, largest);
 }
 
-void draw(const std::vector<Picture>& pictures, const fs::path& directory, WrittenFiles& written) {
-  for (const auto& [name, script, width, height] : pictures)
-    written.write(directory / (name + ".gp"),
-                  "# gnuplot " + name + ".gp draws " + name +
-                      ".svg\nif (!exists('picture')) picture = '" + name +
-                      ".svg'\nset terminal svg noenhanced size " + std::to_string(width) + ',' +
-                      std::to_string(height) +
-                      " font 'Helvetica,14' background rgb 'white' fixed\nset output picture\n" +
-                      script + "set output\n");
+Title title_in_room(const std::string& text, unsigned int width) {
+  constexpr unsigned int size = 12;
+  const std::size_t most = width / (0.62 * size);
+  std::vector<std::string> lines(1);
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t comma = text.find(", ", begin),
+                      end = comma == std::string::npos ? text.size() : comma + 2;
+    if (!lines.back().empty() && lines.back().size() + end - begin > most)
+      lines.emplace_back();
+    lines.back() += text.substr(begin, end - begin);
+    begin = end;
+  }
+  std::size_t longest = 1;
+  std::string title;
+  for (const std::string& line : lines) {
+    longest = std::max(longest, line.size());
+    title += (title.empty() ? "" : ".\"\\n\".") + in_single_quotes(trimmed(line));
+  }
+  return {title + " font '," + std::to_string(size_of_letters(longest, width, size)) + '\'',
+          static_cast<unsigned int>(lines.size())};
+}
+
+namespace {
+
+/// What a format means for gnuplot.
+struct Terminal {
+  std::string settings;  ///< of gnuplot's terminal
+  std::string last_word; ///< of a complete file
+};
+
+Terminal terminal_of(PictureFormat format, const Picture& picture) {
+  const auto size = [&](double factor, const std::string& unit) {
+    return " noenhanced size " + rounded(factor * picture.width, 6) + unit + ',' +
+           rounded(factor * picture.height, 6) + unit + " font 'Helvetica,14' ";
+  };
+  switch (format) {
+  case PictureFormat::png: // twice as many points as an SVG picture has, for print
+    return {"pngcairo" + size(2, "") + "fontscale 2 linewidth 2 pointscale 2", "IEND"};
+  case PictureFormat::pdf:
+    return {"pdfcairo" + size(1 / 72., "in") + "fontscale 1", "%%EOF"};
+  case PictureFormat::svg:
+    break;
+  }
+  return {"svg" + size(1, "") + "background rgb 'white' fixed", "</svg>"};
+}
+
+} // namespace
+
+std::vector<std::string> picture_files(const std::string& name, PictureFormat format) {
+  const std::map<PictureFormat, std::string> endings = {
+      {PictureFormat::svg, ".svg"}, {PictureFormat::png, ".png"}, {PictureFormat::pdf, ".pdf"}};
+  return {name + ".gp", name + endings.at(format)};
+}
+
+void draw(const std::vector<Picture>& pictures, const fs::path& directory, PictureFormat format,
+          WrittenFiles& written) {
+  for (const Picture& picture : pictures) {
+    const auto names = picture_files(picture.name, format);
+    written.write(directory / names[0],
+                  "# gnuplot " + names[0] + " draws " + names[1] +
+                      "\nif (!exists('picture')) picture = '" + names[1] + "'\nset terminal " +
+                      terminal_of(format, picture).settings + "\nset output picture\n" +
+                      picture.script + "set output\n");
+  }
   const std::string change_directory =
       "cd '" + boost::algorithm::replace_all_copy(fs::absolute(directory).string(), "'", "'\\''") +
       "' && exec timeout -k 1 ";
   const dealii::Timer timer;
   for (const Picture& picture : pictures) {
-    const std::string script = picture.name + ".gp", svg = picture.name + ".svg";
-    AtomicFile file(directory / svg);
+    const auto names = picture_files(picture.name, format);
+    const std::string &script = names[0], &name = names[1];
+    AtomicFile file(directory / name);
     std::string messages;
     constexpr double most_seconds = 60; // for all pictures: gnuplot may wait for ever
     const double left = std::max(most_seconds - timer.wall_time(), 0.1);
     if (run_shell(change_directory + std::to_string(left) + " gnuplot -d -e \"picture='" +
                       file.part().filename().string() + "'\" " + script + " 2>&1",
                   messages)) {
-      if (read_file(file.part()).find("</svg>") == std::string::npos) // which gnuplot passes over
-        throw NotWritten((directory / svg).string() + " could not be written as a whole: the disk "
-                                                      "is full, or the size of files is limited");
+      if (read_file(file.part()).find(terminal_of(format, picture).last_word) == std::string::npos)
+        throw NotWritten((directory / name).string() +
+                         " could not be written as a whole: the disk is full, or the size of files "
+                         "is limited"); // of which gnuplot says nothing
       written.n_bytes += file.commit();
-      written.files.push_back(directory / svg);
+      written.files.push_back(directory / name);
     } else
-      written.remarks.push_back(svg + " was not drawn: gnuplot has " +
+      written.remarks.push_back(name + " was not drawn: gnuplot has " +
                                 (timer.wall_time() > most_seconds
                                      ? "taken more than a minute"
                                      : "failed: " + printable(trimmed(messages))) +

@@ -21,18 +21,6 @@ std::string plotted(double number) {
   return std::isnan(number) ? "NaN" : rounded(number, 9);
 }
 
-/// The size of letters with which a line of @p n_letters has room in @p width, at most @p largest.
-/// A legend that is too wide is not drawn at all.
-unsigned int size_of_letters(double n_letters, double width, unsigned int largest) {
-  constexpr double width_over_size = 0.62; // of a letter, as of most fonts without serifs
-  return std::clamp<double>(width / (width_over_size * n_letters), 1, largest);
-}
-
-std::string title_in_room(const std::string& title, unsigned int width) {
-  return in_single_quotes(title) + " font '," +
-         std::to_string(size_of_letters(title.size(), width, 12)) + '\'';
-}
-
 /// The name of the data of curve @p i in panel @p k.
 std::string block(unsigned int k, unsigned int i) {
   return "$curve_" + std::to_string(k + 1) + '_' + std::to_string(i + 1);
@@ -67,11 +55,15 @@ double below(const std::vector<Curve>& curves, double slope) {
   return least / 2;
 }
 
+LineStyle style_of(const Panel& panel, unsigned int curve) {
+  return panel.curves[curve].style.value_or(LineStyle{curve, curve});
+}
+
 /// The style of the line of a curve.
-std::string style(unsigned int curve, std::size_t n_points) {
+std::string style(const LineStyle& line, std::size_t n_points) {
   return "linespoints pointsize 0.6 pointinterval " + std::to_string(1 + n_points / 40) +
-         " dashtype " + std::to_string(1 + curve % 4) + " pointtype " +
-         std::to_string(7 - 2 * (curve / 4 % 3));
+         " dashtype " + std::to_string(1 + line.dashes % 4) + " pointtype " +
+         std::to_string(7 - 2 * (line.dashes / 4 % 3));
 }
 
 /// The range of y: at least a per cent of its values, so that noise does not fill the panel.
@@ -109,7 +101,8 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
   std::string separator = "plot ";
   const auto add = [&](unsigned int curve, const std::string& style, const std::string& title) {
     script << separator << block(k, curve) << " using " << style << " linewidth 2 linecolor rgb '"
-           << colours[curve] << "' title " << in_single_quotes(title);
+           << colours[style_of(panel, curve).colour % colours.size()] << "' title "
+           << in_single_quotes(title);
     separator = ", ";
   };
   for (unsigned int i = 0; i < panel.curves.size(); ++i) // the lines lie on the bands
@@ -117,7 +110,7 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
       add(i, "1:3:4 with filledcurves fillstyle transparent solid 0.25 noborder", "");
   for (unsigned int i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    add(i, "1:2 with " + style(i, curve.points.size()), curve.title);
+    add(i, "1:2 with " + style(style_of(panel, i), curve.points.size()), curve.title);
     if (has(curve, &CurvePoint::mark))
       add(i, "1:5 with points pointtype 6 pointsize 1.4", curve.title + " published");
   }
@@ -130,14 +123,22 @@ void plot(std::ostream& script, const Panel& panel, unsigned int k, unsigned int
 
 } // namespace
 
+std::vector<unsigned int> spread(unsigned int n, unsigned int most) {
+  std::vector<unsigned int> chosen;
+  const unsigned int count = std::min(n, most);
+  for (unsigned int i = 0; i < count; ++i)
+    chosen.push_back(count < n && count > 1 ? i * std::size_t(n - 1) / (count - 1) : i);
+  return chosen;
+}
+
 Picture plot_panels(const std::string& name, std::string title, std::vector<Panel> panels) {
-  constexpr std::size_t most_curves = 6; // that can be distinguished in one panel
   if (const std::size_t n_curves = panels.front().curves.size(); n_curves > most_curves) {
-    title += "; " + std::to_string(most_curves) + " of " + std::to_string(n_curves) + " curves";
+    title += ", " + std::to_string(most_curves) + " of " + std::to_string(n_curves) +
+             " curves at equal distances";
     for (Panel& panel : panels) {
       std::vector<Curve> chosen;
-      for (std::size_t i = 0; i < most_curves; ++i)
-        chosen.push_back(std::move(panel.curves[i * (n_curves - 1) / (most_curves - 1)]));
+      for (const unsigned int i : spread(n_curves, most_curves))
+        chosen.push_back(std::move(panel.curves[i]));
       panel.curves = std::move(chosen);
     }
   }
@@ -161,49 +162,89 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
     longest = std::max<unsigned int>(longest, curve.title.size() + (has_marks ? 10 : 0));
   }
   const bool has_legend = n_titles > 1 || !panels[0].curves[0].title.empty();
-  const unsigned int width = is_single ? 760 : 1000;
+  const unsigned int width = is_single && n_titles <= 4 ? 760 : 1000;
   const unsigned int letter = 9, sample = 80; // in the legend
+  const Title heading = title_in_room(title, width);
   const unsigned int legend_columns = std::clamp(width / (letter * longest + sample), 1u, 4u);
   const unsigned int columns = is_single ? 1 : 2, rows = (panels.size() + columns - 1) / columns,
                      legend_rows =
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
-                     height = (is_single ? 500 : 340 * rows) + 20 * legend_rows;
-  script << "set multiplot layout " << rows << ',' << columns << " title "
-         << title_in_room(title, width) << " margins " << (is_single ? 0.14 : 0.11) << ",0.96,"
-         << (70. + 20 * legend_rows) / height << ',' << 1 - 45. / height << " spacing 0.13,"
-         << 80. / height << "\nset key font '," << size_of_letters(longest, width - sample, 14)
-         << "'\n";
+                     above = 30 + 16 * heading.n_lines, below_axes = 80 + 21 * legend_rows,
+                     height = (is_single ? 420 : 300 * rows) + above + below_axes;
+  script << "set multiplot layout " << rows << ',' << columns << " title " << heading.text
+         << " margins " << (is_single ? 110. / width : 0.11) << ",0.96," << 1. * below_axes / height
+         << ',' << 1 - 1. * above / height << " spacing 0.13," << 80. / height
+         << "\nset key font '," << size_of_letters(longest, width - sample, 14) << "'\n";
   for (unsigned int k = 0; k < panels.size(); ++k)
     plot(script, panels[k], k, k == 0 ? legend_rows : 0);
   script << "unset multiplot\n";
   return {name, script.str(), width, height};
 }
 
-Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+namespace {
+
+/// Where the cells of these places end: in the middle between neighbours, and as far outside.
+std::vector<double> ends_of_cells(const std::vector<double>& places) {
+  std::vector<double> ends = {0};
+  for (std::size_t i = 1; i < places.size(); ++i)
+    ends.push_back(places[i - 1] + (places[i] - places[i - 1]) / 2);
+  ends.front() = 2 * places.front() - ends[1];
+  ends.push_back(2 * places.back() - ends.back());
+  return ends;
+}
+
+/// The part of a range in which a label has room.
+std::string has_room(const std::string& column, const std::vector<double>& ends, double border) {
+  const double width = border * (ends.back() - ends.front());
+  return column + " > " + plotted(ends.front() + width) + " && " + column + " < " +
+         plotted(ends.back() - width);
+}
+
+} // namespace
+
+Picture plot_map(std::string title, const std::string& x_label, const std::string& y_label,
                  const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines) {
-  // The point of each contour that has a label: off the border, also where a contour has few.
-  const unsigned int labelled = std::clamp<unsigned int>(lines.size() / 4, 1, 4);
+  constexpr unsigned int most_cells = 70, width = 800;
+  const auto of_x = spread(lines.size(), most_cells), of_y = spread(lines[0].size(), most_cells);
+  if (of_x.size() < lines.size() || of_y.size() < lines[0].size())
+    title += ", " + std::to_string(of_x.size()) + " x " + std::to_string(of_y.size()) + " of " +
+             std::to_string(lines.size()) + " x " + std::to_string(lines[0].size()) + " runs";
+  std::vector<double> x, y;
+  for (const unsigned int i : of_x)
+    x.push_back(lines[i][0][0]);
+  for (const unsigned int j : of_y)
+    y.push_back(lines[0][j][1]);
+  const auto x_ends = ends_of_cells(x), y_ends = ends_of_cells(y);
   std::ostringstream script;
   script << "$map << EOD\n";
-  for (const auto& line : lines) {
-    for (const auto& [x, y, value] : line)
-      script << plotted(x) << ' ' << plotted(y) << ' ' << plotted(value) << '\n';
+  for (unsigned int i = 0; i < x.size(); ++i) {
+    for (unsigned int j = 0; j < y.size(); ++j)
+      script << plotted(x[i]) << ' ' << plotted(y[j]) << ' ' << plotted(lines[of_x[i]][of_y[j]][2])
+             << ' ' << plotted(x_ends[i]) << ' ' << plotted(x_ends[i + 1]) << ' '
+             << plotted(y_ends[j]) << ' ' << plotted(y_ends[j + 1]) << '\n';
     script << '\n';
   }
-  script << "EOD\nset datafile missing 'NaN'\nset contour base\nset cntrparam levels 10\n"
+  // Of the points of a contour some have a label, if they are off the axes.
+  const std::size_t labelled = std::max<std::size_t>(x.size() / 2, 2);
+  const Title heading = title_in_room(title, width);
+  const unsigned int height = 560 + 16 * heading.n_lines;
+  script << "EOD\nset datafile missing 'NaN'\nset contour base\nset cntrparam levels 8\n"
             "unset surface\nset table $contours\nsplot $map\nunset table\nunset contour\n"
-            "set surface\nset view map\nset autoscale xfix\nset autoscale yfix\nunset key\n"
-            "set style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
+            "unset key\nset style textbox opaque noborder fillcolor rgb '#ffffff' margins 0.3,0.3\n"
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
-         << title_in_room(title, 760) << "\nset xlabel " << in_single_quotes(x_label)
-         << "\nset ylabel " << in_single_quotes(y_label) << "\nset cblabel "
-         << in_single_quotes(value_label)
-         << "\nset pm3d interpolate 8,8\n"
-            "splot $map with pm3d, $contours with lines linecolor rgb '#000000' linewidth 1, "
-            "$contours using 1:2:3:(sprintf('%.3g', $3)) every ::"
-         << labelled << "::" << labelled << " with labels boxed font ',10'\n";
-  return {"study-map", script.str(), 760, 560};
+         << heading.text << "\nset xlabel " << in_single_quotes(x_label) << "\nset ylabel "
+         << in_single_quotes(y_label) << "\nset cblabel " << in_single_quotes(value_label)
+         << "\nset xrange [" << plotted(x_ends.front()) << ':' << plotted(x_ends.back())
+         << "]\nset yrange [" << plotted(y_ends.front()) << ':' << plotted(y_ends.back())
+         << "]\nset format '%g'\nset tics out nomirror\n"
+            "plot $map using 1:2:4:5:6:7:3 with boxxyerror fillstyle solid noborder fillcolor "
+            "palette, $contours using 1:2 with lines linecolor rgb '#000000' linewidth 1, "
+            "$contours using ("
+         << has_room("$1", x_ends, 0.08) << " && " << has_room("$2", y_ends, 0.06)
+         << " ? $1 : NaN):2:(sprintf('%.3g', $3)) every " << labelled << "::" << labelled / 4
+         << " with labels boxed font ',11'\n";
+  return {"study-map", script.str(), width, height};
 }
 
 } // namespace rollwave

@@ -18,6 +18,8 @@ Units::Unit Units::unit(Quantity quantity) const {
     return {length, m};
   case Quantity::area:
     return {length * length, m + "^2"};
+  case Quantity::curvature:
+    return {1 / length, "1/" + m};
   case Quantity::angular_velocity:
     return {material.wave_speed() / length, "rad/" + s};
   case Quantity::density:

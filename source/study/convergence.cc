@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <utility>
 
 namespace rollwave {
@@ -178,6 +179,30 @@ std::vector<Family> find_families(const Study& study) {
         family.is_adaptive || (most_cycles(options) > 0 && options.marking != Marking::all);
   }
   return families;
+}
+
+Panel error_panel(const Study& study, const std::string& x, const std::string& x_label,
+                  double order_factor) {
+  const ResultQuantity& error = result_quantity(
+      study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
+  Panel panel{x_label, error.words, {}, true, true};
+  std::set<double> orders;
+  for (const Family& family : find_families(study)) {
+    if (x == "mesh.h_max" && family.is_adaptive)
+      continue;
+    Curve curve{family.name, {}};
+    for (const unsigned int run : family.runs) {
+      if (study.value(run, x) && study.value(run, error.name))
+        curve.points.push_back({*study.value(run, x), *study.value(run, error.name)});
+      if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
+        orders.insert(*order);
+    }
+    if (!curve.points.empty())
+      panel.curves.push_back(std::move(curve));
+  }
+  for (const double order : orders)
+    panel.slopes.push_back(order_factor * order);
+  return panel;
 }
 
 void report_orders(std::ostream& out, const Study& study) {

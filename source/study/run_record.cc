@@ -26,6 +26,7 @@ Json files_json(const RunRecord& record) {
   const UnitNames& names = record.files.unit_names;
   return {{"kinds", text_of(record.files.kinds)},
           {"linear_cells", record.files.cells == CellKind::linear},
+          {"picture_format", static_cast<int>(record.files.picture_format)},
           {"unit_names", {names.length, names.time, names.force}},
           {"bytes", record.sizes}};
 }
@@ -35,6 +36,7 @@ void read_files(const Json& json, RunRecord& record) {
   record.files.kinds = parse_files(json.at("kinds").get<std::string>());
   record.files.cells =
       json.at("linear_cells").get<bool>() ? CellKind::linear : CellKind::high_order;
+  record.files.picture_format = static_cast<PictureFormat>(json.at("picture_format").get<int>());
   const Json& names = json.at("unit_names");
   record.files.unit_names = {names.at(0), names.at(1), names.at(2)};
   json.at("bytes").get_to(record.sizes);
@@ -52,12 +54,13 @@ bool has_files(const RunRecord& record, const fs::path& own_directory) {
 
 bool OwnFiles::include(const OwnFiles& wanted) const {
   return wanted.kinds.empty() ||
-         (cells == wanted.cells && unit_names == wanted.unit_names &&
+         (form() == wanted.form() &&
           std::includes(kinds.begin(), kinds.end(), wanted.kinds.begin(), wanted.kinds.end()));
 }
 
 OwnFiles wanted_files(const Parameters& study) {
-  return {study.study.files_of_each_run, study.output.cells, study.material.unit_names};
+  return {study.study.files_of_each_run, study.output.cells, study.output.picture_format,
+          study.material.unit_names};
 }
 
 std::string to_json(const RunRecord& record, const std::string& digest) {

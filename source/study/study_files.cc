@@ -56,7 +56,7 @@ std::vector<std::string> study_file_names(const Parameters& parameters) {
     names.push_back("study.pvd");
   if (parameters.wants(OutputFile::plot))
     for (const char* const picture : study_picture_names)
-      for (const std::string& name : picture_files(picture))
+      for (const std::string& name : picture_files(picture, parameters.output.picture_format))
         names.push_back(name);
   return names;
 }

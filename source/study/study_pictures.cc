@@ -68,7 +68,10 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
     if (is_named && differing.count(key.path()) == 0 && setting.value != "none")
       title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
   }
-  return title + (most_cycles(study.plans.front().parameters.mesh) > 0 ? ", adaptive" : "");
+  const bool is_adaptive =
+      std::all_of(study.plans.begin(), study.plans.end(),
+                  [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
+  return title + (is_adaptive ? ", adaptive" : "");
 }
 
 /// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
@@ -83,10 +86,8 @@ std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
     };
     const RunPlan& plan = study.plans[run];
     const auto fastest = plan.varied.begin() + study.first_key_of_part.back();
-    const std::string title = label(plan, {plan.varied.begin(), fastest});
-    // The runs of one curve follow each other, so that a new title begins a new curve.
-    if (curves.empty() || curves.back().title != title)
-      curves.push_back({title, {}});
+    if (run % study.n_fastest == 0)
+      curves.push_back({label(plan, {plan.varied.begin(), fastest}), {}});
     CurvePoint point = {x[run], number(quantity)};
     if (has_bounds) {
       point.lower = number(quantity + "_lower_bound");
@@ -148,6 +149,17 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x
   return panels;
 }
 
+/// True if a curve goes back and forth: keys that vary together may repeat the first one's numbers.
+bool is_zigzag(const Panel& panel) {
+  for (const Curve& curve : panel.curves) {
+    std::set<double> x;
+    for (const CurvePoint& point : curve.points)
+      if (!x.insert(point.x).second)
+        return true;
+  }
+  return false;
+}
+
 /// True if no run has a value: gnuplot refuses such a panel.
 bool is_empty(const Panel& panel) {
   for (const Curve& curve : panel.curves)
@@ -157,59 +169,52 @@ bool is_empty(const Panel& panel) {
   return true;
 }
 
-/// The error over the quantity @p x for each family of runs that differ in the fineness of their
-/// meshes: the true error or, if that is not known, its bound.
-/// @param order_factor slopes over expected orders; 0 for none
-Panel errors_of_families(const Study& study, const std::string& x, const std::string& x_label,
-                         double order_factor) {
-  const ResultQuantity& error = result_quantity(
-      study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
-  Panel panel{x_label, error.words, {}, true, true};
-  std::set<double> orders;
-  for (const Family& family : find_families(study)) {
-    if (x == "mesh.h_max" && family.is_adaptive)
-      continue;
-    Curve curve{family.name, {}};
-    for (const unsigned int run : family.runs) {
-      if (study.value(run, x) && study.value(run, error.name))
-        curve.points.push_back({*study.value(run, x), *study.value(run, error.name)});
-      if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
-        orders.insert(*order);
-    }
-    if (!curve.points.empty())
-      panel.curves.push_back(std::move(curve));
-  }
-  for (const double order : orders)
-    panel.slopes.push_back(order_factor * order);
-  return panel;
+/// The pressure of a run over the length along the road, in the user's units.
+std::vector<CurvePoint> profile_of(const Study& study, unsigned int run) {
+  const RunOptions& parameters = study.plans[run].parameters;
+  const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
+                     parameters.road.curvature};
+  std::vector<CurvePoint> points;
+  for (const auto& [z, pressure] : study.runs[run]->pressure)
+    points.push_back({road.arc_length(from_lowest_point(z)), pressure});
+  return points;
 }
 
-/// Pressures over the length along the road.
-Panel profile_panel(const Study& study) {
+/// Pressures over the length along the road. Of many runs it has the same few values of the key
+/// that varies fastest, in colours, for each choice of the others, in dashes.
+Panel profile_panel(const Study& study, std::string& title) {
   const Units units = study.units();
   Panel panel{"length along the road" + units.in_brackets(Quantity::length),
               "contact pressure" + units.in_brackets(Quantity::pressure),
               {}};
-  for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run] && !study.runs[run]->pressure.empty()) {
-      panel.curves.push_back({label(study.plans[run], study.plans[run].varied), {}});
-      const RunOptions& parameters = study.plans[run].parameters;
-      const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
-                         parameters.road.curvature}; // in the user's units
-      for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.push_back({road.arc_length(from_lowest_point(z)), pressure});
+  const unsigned int n_values = study.n_fastest, n_choices = study.runs.size() / n_values;
+  const auto choices = spread(n_choices, n_values > 1 ? most_curves / 2 : most_curves),
+             values = spread(n_values, most_curves / choices.size());
+  for (unsigned int i = 0; i < choices.size(); ++i)
+    for (unsigned int k = 0; k < values.size(); ++k) {
+      const unsigned int run = choices[i] * n_values + values[k];
+      if (!study.runs[run] || study.runs[run]->pressure.empty())
+        continue;
+      panel.curves.push_back(
+          {label(study.plans[run], study.plans[run].varied), profile_of(study, run)});
+      if (choices.size() > 1 && values.size() > 1)
+        panel.curves.back().style = LineStyle{k, i};
     }
+  if (panel.curves.size() < study.runs.size())
+    title += ", " + std::to_string(panel.curves.size()) + " of " +
+             std::to_string(study.runs.size()) + " runs";
   return panel;
 }
 
-/// The main_result() over two keys of the scene that have numbers; nullopt for other studies.
+/// The main_result() over two keys of the scene that have more numbers than curves can show;
+/// nullopt for other studies.
 std::optional<Picture> map_of_result(const Study& study, const std::string& title) {
   if (study.first_key_of_part.size() != 2 || !study.plans.front().scene.empty())
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
   const auto& varied = study.plans.front().varied;
-  if (!study.is_of_scenes() || x.empty() || y.empty() || x.front() == x.back() ||
-      y.front() == y.back())
+  if (!study.is_of_scenes() || std::set(x.begin(), x.end()).size() <= most_curves ||
+      std::set(y.begin(), y.end()).size() <= most_curves)
     return {};
   const ResultQuantity& result = main_result(study);
   std::vector<std::vector<std::array<double, 3>>> lines;
@@ -238,7 +243,8 @@ std::vector<double> fastest_numbers(const Study& study) {
 void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& written) {
   const std::string title = title_of(study, parameters.settings);
   std::vector<Picture> pictures;
-  const auto add = [&](const std::string& name, std::vector<Panel> panels) {
+  const auto add = [&](const std::string& name, std::vector<Panel> panels,
+                       const std::string& title) {
     panels.erase(std::remove_if(panels.begin(), panels.end(), is_empty), panels.end());
     if (!panels.empty())
       pictures.push_back(plot_panels(name, title, panels));
@@ -249,8 +255,10 @@ void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& 
     pictures.push_back(*map);
   if (!is_over_method) {
     if (!x.empty())
-      add("study-curves", curve_panels(study, x));
-    add("study-profiles", {profile_panel(study)});
+      add("study-curves", curve_panels(study, x), title);
+    std::string title_of_profiles = title;
+    const Panel profiles = profile_panel(study, title_of_profiles);
+    add("study-profiles", {profiles}, title_of_profiles);
   }
   const bool has_errors =
       study.has("error.exact_relative") || study.has("error.certified_relative");
@@ -262,16 +270,19 @@ void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& 
                      1.),
           {"study-unknowns", "mesh.dofs", std::string("unknowns"), -0.5},
           {"study-time", "seconds.total", std::string("seconds"), 0.}})
-      add(name, {errors_of_families(study, figure, label, order)});
+      add(name, {error_panel(study, figure, label, order)}, title);
   // On an adaptive mesh the contact iteration begins with the contact of the mesh before, so that
   // its steps are few and not comparable.
   const bool is_adaptive =
       std::any_of(study.plans.begin(), study.plans.end(),
                   [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps")))
-    add("study", {{x_label_of(study), "contact steps",
-                   curves_of(study, x, "iterations.contact", "published_steps"), false, true}});
-  draw(pictures, parameters.output.directory, written);
+  if (!x.empty() && !is_adaptive && (is_over_method || study.has("published_steps"))) {
+    const Panel steps = {x_label_of(study), "contact steps",
+                         curves_of(study, x, "iterations.contact", "published_steps"), false, true};
+    if (!is_zigzag(steps))
+      add("study", {steps}, title);
+  }
+  draw(pictures, parameters.output.directory, parameters.output.picture_format, written);
 }
 
 } // namespace rollwave

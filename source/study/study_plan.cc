@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace rollwave {
@@ -86,6 +88,16 @@ void check_method(const std::vector<RunPlan>& plans) {
                      setting.path() + " has no effect without Contact/Method = uzawa");
 }
 
+/// A number with at most five digits, whole ones with all; other values as they are.
+std::string shortened(const std::string& value) {
+  try {
+    const double number = to_number(value);
+    return number == std::round(number) ? value : rounded(number, 5);
+  } catch (const std::invalid_argument&) {
+    return value;
+  }
+}
+
 std::string lower_case_name(const Key& key) {
   std::string name = key.name;
   name[0] = std::tolower(name[0]);
@@ -137,8 +149,8 @@ std::string axis_label(const Setting& setting, const Units& units) {
 
 std::string key_with_value(const Setting& setting, const Units& units) {
   const Key& key = key_of(setting);
-  return (key.symbol.empty() ? lower_case_name(key) + ' ' : key.symbol + " = ") + setting.value +
-         units.after(key.quantity);
+  return (key.symbol.empty() ? lower_case_name(key) + ' ' : key.symbol + " = ") +
+         shortened(setting.value) + units.after(key.quantity);
 }
 
 std::string label(const RunPlan& plan, const std::vector<Setting>& named) {

@@ -69,8 +69,7 @@ RunRecord make_run(const Study& study, unsigned int run, StudySolver& solver,
   if (!files.kinds.empty())
     if (auto earlier = known_to_all(directory, digest, {}, communicator);
         earlier && !earlier->files.kinds.empty()) {
-      if (OwnFiles both = earlier->files;
-          both.cells == files.cells && both.unit_names == files.unit_names)
+      if (const OwnFiles& both = earlier->files; both.form() == files.form())
         files.kinds.insert(both.kinds.begin(), both.kinds.end());
       earlier->files = {};
       if (is_first)
@@ -128,6 +127,7 @@ Study plan_study(const Parameters& parameters, const std::optional<StudyPart>& p
   for (const Variation& variation : parameters.study.vary) {
     study.first_key_of_part.push_back(n_keys);
     n_keys += variation.front().size();
+    study.n_fastest = variation.size();
   }
   return study;
 }

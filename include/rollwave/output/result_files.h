@@ -3,14 +3,13 @@
 #include "rollwave/output/output_directory.h"
 #include "rollwave/run/simulation.h"
 
-#include <set>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// The names of the files that write_results() writes for these kinds.
-std::vector<std::string> result_file_names(const std::set<OutputFile>& kinds);
+/// The names of the files that write_results() writes with these options.
+std::vector<std::string> result_file_names(const OutputOptions& output);
 
 /// Writes the files that @p parameters ask for. All processes must call it, and rank 0 writes. The
 /// seconds are added to the statistics of @p solution. The summary is the last file before the

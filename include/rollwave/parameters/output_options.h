@@ -13,12 +13,16 @@ enum class OutputFile { summary, contact, parameters, solution, surface, plot };
 /// The cells of solution.vtu for elements of degree 2 and more.
 enum class CellKind { high_order, linear };
 
+/// Of pictures, which gnuplot draws.
+enum class PictureFormat { svg, png, pdf };
+
 /// Section `Output`.
 struct OutputOptions {
   std::string directory = "output";
   std::set<OutputFile> files = {OutputFile::summary,  OutputFile::contact, OutputFile::parameters,
                                 OutputFile::solution, OutputFile::surface, OutputFile::plot};
   CellKind cells = CellKind::high_order;
+  PictureFormat picture_format = PictureFormat::svg;
 };
 
 /// The kinds in a list, always with `parameters`. @throws std::invalid_argument for an unknown one

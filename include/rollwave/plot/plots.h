@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,16 @@ struct CurvePoint {
   double mark = NAN;               ///< a further y, shown as an open circle
 };
 
+/// The numbers of a curve's colour and of its dashes.
+struct LineStyle {
+  unsigned int colour, dashes;
+};
+
 /// One curve of a panel: its points joined by lines, in the order of x.
 struct Curve {
   std::string title;
   std::vector<CurvePoint> points;
+  std::optional<LineStyle> style = {}; ///< otherwise one of its own
 };
 
 /// A pair of axes with curves.
@@ -30,12 +37,20 @@ struct Panel {
   std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
 };
 
-/// Panels in rows of two. They have the same curves, with one legend below them. Of more
-/// than six curves it shows six, equally spaced, and the title says so.
+/// The most curves that can be told apart in one panel.
+constexpr unsigned int most_curves = 6;
+
+/// Up to @p most of the numbers 0 to n - 1, equally spaced, with the first and the last one.
+std::vector<unsigned int> spread(unsigned int n, unsigned int most);
+
+/// Panels in rows of two. They have the same curves, with one legend below them. Of more than
+/// most_curves it shows as many, equally spaced, and the title says so.
 Picture plot_panels(const std::string& name, std::string title, std::vector<Panel> panels);
 
-/// Values over a grid of x and y as colours with contour lines, in lines of constant x.
-Picture plot_map(const std::string& title, const std::string& x_label, const std::string& y_label,
+/// Values over a grid of x and y, in lines of constant x: a cell of colour for each, which ends in
+/// the middle between neighbours, and contour lines. Of more than 70 values of x or y it shows 70,
+/// and the title says so: each cell takes about 120 bytes.
+Picture plot_map(std::string title, const std::string& x_label, const std::string& y_label,
                  const std::string& value_label,
                  const std::vector<std::vector<std::array<double, 3>>>& lines);
 

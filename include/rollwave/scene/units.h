@@ -38,6 +38,7 @@ enum class Quantity {
   angle, ///< in radians
   length,
   area,
+  curvature, ///< one over a length
   angular_velocity,
   density, ///< that of the material, which the scene has none of
   pressure,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rollwave/plot/plots.h"
 #include "rollwave/study/study.h"
 
 #include <iosfwd>
@@ -23,5 +24,11 @@ std::vector<Family> find_families(const Study& study);
 /// squares, with standard errors, and next to them the expected order, if each refinement is one in
 /// both directions.
 void report_orders(std::ostream& out, const Study& study);
+
+/// The error over the quantity @p x for each family of runs that differ in the fineness of their
+/// meshes: the true error or, if that is not known, its bound.
+/// @param order_factor slopes over expected orders; 0 for none
+Panel error_panel(const Study& study, const std::string& x, const std::string& x_label,
+                  double order_factor);
 
 } // namespace rollwave

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,11 @@ namespace rollwave {
 struct OwnFiles {
   std::set<OutputFile> kinds; ///< none: no files
   CellKind cells = CellKind::high_order;
+  PictureFormat picture_format = PictureFormat::svg;
   UnitNames unit_names;
+
+  /// What changes the content of a file.
+  auto form() const { return std::tie(cells, picture_format, unit_names); }
 
   /// True if @p wanted are among these.
   bool include(const OwnFiles& wanted) const;

@@ -20,6 +20,7 @@ struct Study {
   /// The index in RunPlan::varied of the first key of each part of Study/Vary; the keys of a part
   /// vary together.
   std::vector<unsigned int> first_key_of_part = {};
+  unsigned int n_fastest = 1; ///< runs that follow each other and differ in the last part only
   std::string shortfall = ""; ///< set if the user has interrupted it, otherwise empty
 
   /// The numbers of the runs that the call makes, from 0 on.
