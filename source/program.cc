@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -71,6 +72,10 @@ void verify(Solution& solution, std::ostream& out) {
     if (scene.load)
       solution.result.errors->exact_distance = find_exact_distance(scene);
     report_verification(out, scene, solution.result, *exact, find_exact_stiffness(scene));
+    for (Note& note : contradicted_guarantees(solution.result, *exact, scene.units)) {
+      out << "Shortfall  " << note.text << '\n';
+      solution.result.notes.push_back(std::move(note));
+    }
   } else {
     const std::string remark = "no exact solution is known for this scene: " + why;
     solution.result.notes.push_back({Note::Kind::remark, remark});
