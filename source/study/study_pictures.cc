@@ -4,7 +4,6 @@
 #include "rollwave/base/text.h"
 #include "rollwave/plot/plots.h"
 #include "rollwave/run/quantities.h"
-#include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 
@@ -187,13 +186,10 @@ Panel profile_panel(const Study& study) {
               "contact pressure" + units.in_brackets(Quantity::pressure),
               {}};
   for (unsigned int run = 0; run < study.runs.size(); ++run)
-    if (study.runs[run] && !study.runs[run]->pressure.empty()) {
+    if (study.runs[run] && !study.runs[run]->profile.empty()) {
       panel.curves.push_back({label(study.plans[run], study.plans[run].varied), {}});
-      const RunOptions& parameters = study.plans[run].parameters;
-      const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
-                         parameters.road.curvature}; // in the user's units
-      for (const auto& [z, pressure] : study.runs[run]->pressure)
-        panel.curves.back().points.push_back({road.arc_length(from_lowest_point(z)), pressure});
+      for (const ProfilePoint& point : study.runs[run]->profile)
+        panel.curves.back().points.push_back({point.road_length, point.pressure});
     }
   return panel;
 }

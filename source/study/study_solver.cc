@@ -187,7 +187,7 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
   if (!run.files.kinds.empty())
     write_files(plan, run);
   run.values = values_of(result, scene.units);
-  run.pressure = pressure_of(result, scene.units);
+  run.profile = profile_of(result, scene.units);
   run.failure = shortfall_text(result);
 }
 
