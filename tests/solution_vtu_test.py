@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from vtkmodules.vtkCommonCore import reference
+from vtkmodules.vtkCommonDataModel import vtkCellLocator
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 program, scene, degree = sys.argv[1], sys.argv[2], int(sys.argv[3])
@@ -218,6 +219,20 @@ for (begin, end), own in sides.items():
                 check(math.dist(here, there) < 3e-7, "no crack at a hanging node")
             n_hanging += 1
 check(n_hanging > 10, "hanging nodes")
+
+# Cells of four nodes leave no crack either, so that VTK finds every point of a circle.
+with tempfile.TemporaryDirectory() as directory:
+    run(directory, "linear", "Mesh/Radial cells=2", "Mesh/Angular cells=24",
+        "Mesh/Adaptive cycles=3", "Output/Files=solution")
+    grid = read(directory, "solution.vtu")
+locator = vtkCellLocator()
+locator.SetDataSet(grid)
+locator.BuildLocator()
+for radius in (0.6, 0.7, 0.75):
+    for i in range(400):
+        z = 2 * math.pi * (i + 0.5) / 400
+        check(locator.FindCell([radius * math.cos(z), radius * math.sin(z), 0.0]) >= 0,
+              "a cell at every point")
 
 # One piece, also of many cells: some programs read the last piece only.
 if degree == 1:

@@ -10,6 +10,7 @@
 #include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -46,14 +47,18 @@ unsigned int point_on_side(unsigned int degree, unsigned int side, unsigned int 
   return is_radial ? k + (degree + 1) * across : across + (degree + 1) * k;
 }
 
-/// Moves points of a side that is half of a coarser cell's side onto the curve of that one, which
-/// is the polynomial through its own points at their deformed places. Else curved cells leave
-/// cracks.
+/// Moves points of a side that is half of a coarser cell's side onto that one, so that there is no
+/// crack: onto the polynomial through its points at their deformed places, or, for cells of four
+/// nodes, onto the straight lines between these.
 /// @param values of the coarser cells, at the points of a patch
 void join_to_coarser_cells(const DoFHandler<2>::active_cell_iterator& cell, FEValues<2>& values,
-                           const FieldVector& displacement, double length, Patch& patch) {
+                           const FieldVector& displacement, double length, bool is_curved,
+                           Patch& patch) {
   const unsigned int p = patch.n_subdivisions, x = patch.data.n_rows() - 2;
   const auto basis = Polynomials::LagrangeEquidistant::generate_complete_basis(p);
+  const auto share = [&basis, p, is_curved](unsigned int m, double t) {
+    return is_curved ? basis[m].value(t) : std::max(0., 1 - std::abs(p * t - m));
+  };
   std::vector<double> u(values.n_quadrature_points);
   for (const unsigned int side : cell->face_indices()) {
     if (cell->at_boundary(side) || !cell->neighbor_is_coarser(side))
@@ -67,7 +72,7 @@ void join_to_coarser_cells(const DoFHandler<2>::active_cell_iterator& cell, FEVa
       for (unsigned int m = 0; m <= p; ++m) {
         const unsigned int q = point_on_side(p, coarse_side, m);
         const double r = values.quadrature_point(q)[0], z = values.quadrature_point(q)[1];
-        const double scaled = basis[m].value(t) * (r + u[q]) * length;
+        const double scaled = share(m, t) * (r + u[q]) * length;
         place[0] += scaled * std::cos(z);
         place[1] += scaled * std::sin(z);
       }
@@ -79,7 +84,7 @@ void join_to_coarser_cells(const DoFHandler<2>::active_cell_iterator& cell, FEVa
 
 /// A patch for each cell of this process. Its points are equidistant in (r, z), as VTK's Lagrange
 /// cells have them, and lie at their deformed places. Their fields, then their places, are rows.
-std::vector<Patch> deformed_cells(const Solution& solution) {
+std::vector<Patch> deformed_cells(const Solution& solution, bool is_curved) {
   const RingSpace& space = solution.space();
   const auto& element = space.dof_handler().get_fe();
   const QIterated<2> points(QTrapezoid<1>(), element.degree); // r running fastest, as in a patch
@@ -123,7 +128,7 @@ std::vector<Patch> deformed_cells(const Solution& solution) {
         add(solution.certificate->cell_bounds[cell->active_cell_index()] * energy_norm);
       add_vector((r + u[q]) * length);
     }
-    join_to_coarser_cells(cell, values_of_coarser, solution.displacement, length, patch);
+    join_to_coarser_cells(cell, values_of_coarser, solution.displacement, length, is_curved, patch);
     patches.push_back(std::move(patch));
   }
   return patches;
@@ -141,7 +146,8 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 std::string piece(const Solution& solution, const DataOutBase::VtkFlags& flags) {
   const std::string length = solution.scene.units.as_suffix(Quantity::length);
   std::ostringstream out;
-  if (const std::vector<Patch> patches = deformed_cells(solution); !patches.empty())
+  const auto patches = deformed_cells(solution, flags.write_higher_order_cells);
+  if (!patches.empty())
     DataOutBase::write_vtu_main(patches, field_names(solution),
                                 {{4, 5, "displacement_vector" + length, // x and y
                                   DataComponentInterpretation::component_is_part_of_vector}},
