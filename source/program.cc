@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -72,6 +73,10 @@ void verify(Solution& solution, MPI_Comm communicator, std::ostream& out) {
       solution.result.errors->exact_distance = find_exact_distance(scene, communicator);
     report_verification(out, scene, solution.result, *exact,
                         find_exact_stiffness(scene, communicator));
+    for (Note& note : contradicted_guarantees(solution.result, *exact, scene.units)) {
+      out << "Shortfall  " << note.text << '\n';
+      solution.result.notes.push_back(std::move(note));
+    }
   } else {
     const std::string remark = "no exact solution is known for this scene: " + why;
     solution.result.notes.push_back({Note::Kind::remark, remark});
@@ -119,10 +124,9 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       study = plan_study(parameters, line.part);
     else
       scene = make_scene(parameters);
-    const auto older = prepare_directory(parameters,
-                                         is_study ? study_file_names(parameters)
-                                                  : result_file_names(parameters.output),
-                                         communicator);
+    const auto older = prepare_directory(
+        parameters, is_study ? study_file_names(parameters) : result_file_names(parameters.output),
+        communicator);
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace rollwave;
@@ -19,8 +20,6 @@ namespace {
 ContactResultants patch_of(double left, double right, double s, double omega, double begin,
                            double end, unsigned int n, double curvature = 0) {
   const Scene scene{0.5, 1, omega, {}, {}, begin, end};
-
-  std::vector<SurfaceNode> nodes;
   ContactProblem problem;
   ContactSolution solution;
   problem.road = {1, 0.8, curvature};
@@ -30,9 +29,9 @@ ContactResultants patch_of(double left, double right, double s, double omega, do
   solution.state.force.reinit(n);
   for (unsigned int i = 0; i < n; ++i) {
     const double z = begin + (end - begin) * i / (n - 1);
-    nodes.push_back({i, z, 0.1});
     problem.weight(i) = 0.1;
     problem.x.push_back(from_lowest_point(z));
+    problem.cell_ratio.push_back(1);
     const double outside = std::max(left - z, z - right);
     solution.active.push_back(outside < 0);
     if (outside < 0)
@@ -40,7 +39,7 @@ ContactResultants patch_of(double left, double right, double s, double omega, do
     else
       solution.state.displacement(i) = -std::pow(outside, 1 + s);
   }
-  return measure_contact(scene, nodes, problem, solution);
+  return measure_contact(scene, problem, solution, 1);
 }
 
 TEST(ContactPatch, EndsAreExactForTheirOwnLaws) {
@@ -95,16 +94,89 @@ TEST(ContactPatch, LengthOnTheRoadIsThatOfItsArc) {
               1e-11);
 }
 
-/// Half the width of contact in the scene of figure 4 with other @p settings.
-double half_width_with(const std::vector<std::string>& settings) {
+/// The contact of figure 4 with other @p settings.
+ContactResultants contact_with(const std::vector<std::string>& settings) {
   const Parameters parameters = with(paper_scenes()[0].parameters(), settings);
-  return simulate(make_scene(parameters), parameters).result.contact.half_width();
+  return simulate(make_scene(parameters), parameters).result.contact;
 }
 
-TEST(ContactPatch, EndsAreWithinAFifthOfACellOnFewNodes) {
+/// The nip with its estimated error.
+std::pair<double, double> nip_with(const std::vector<std::string>& settings) {
+  const ContactResultants contact = contact_with(settings);
+  return {contact.sum(&ContactPatch::length), contact.sum(&ContactPatch::length_uncertainty)};
+}
+
+// The meshes are the same, the automatic zones are not. The exact nip is that of the half-width.
+TEST(ContactPatch, OneMeshHasOneNip) {
+  const double exact = 2 * 0.8 * std::tan(paper_scenes()[0].half_width);
+  const auto [nip, uncertainty] =
+      nip_with({"Mesh/Degree=1", "Mesh/Radial cells=8", "Mesh/Angular cells=40"});
+  EXPECT_NEAR(nip, exact, uncertainty);
+  EXPECT_LT(uncertainty, 0.2 * exact);
+  const std::vector<std::vector<std::string>> others = {
+      {"Mesh/Radial cells=4", "Mesh/Angular cells=20", "Mesh/Global refinements=1"},
+      {"Mesh/Radial cells=8", "Mesh/Angular cells=40", "Cylinder/Radial force=0*r"}};
+  for (std::vector<std::string> settings : others) {
+    settings.push_back("Mesh/Degree=1");
+    EXPECT_NEAR(nip_with(settings).first, nip, 1e-9 * nip);
+  }
+}
+
+// The exact nips are those of the semi-analytic solution.
+TEST(ContactPatch, NipOnADrumIsWithinItsUncertainty) {
+  for (const auto& [distance, exact] : {std::pair(0.83, 0.238203), {0.8325, 0.236418}}) {
+    const auto [nip, uncertainty] = nip_with(
+        {"Cylinder/Angular velocity=0.9", assignment("Road/Distance", distance), "Road/Curvature=8",
+         "Mesh/Degree=3", "Mesh/Radial cells=2", "Mesh/Angular cells=120"});
+    EXPECT_NEAR(nip, exact, uncertainty) << distance;
+    EXPECT_LT(uncertainty, 0.5 * exact) << distance; // two rows of tall cells
+  }
+}
+
+TEST(ContactPatch, EstimatesCoverTheErrorsOfThePaperScenes) {
+  std::vector<double> ratios; // of an estimate to its error
+  const auto add = [&ratios](double number, double exact, double uncertainty) {
+    ratios.push_back(uncertainty / std::abs(number - exact));
+  };
+  for (const PaperScene& paper : paper_scenes())
+    for (const char* degree : {"1", "2", "4"})
+      for (const auto& [radial, angular] : {std::pair("3", "60"), {"8", "96"}}) {
+        const Parameters parameters =
+            with(paper.parameters(),
+                 {std::string("Mesh/Degree=") + degree, std::string("Mesh/Radial cells=") + radial,
+                  std::string("Mesh/Angular cells=") + angular, "Certificate/Error bound=false"});
+        const ContactResultants contact =
+            simulate(make_scene(parameters), parameters).result.contact;
+        ASSERT_EQ(contact.patches.size(), 1u);
+        const ContactPatch& patch = contact.patches[0];
+        add(patch.half_width(), paper.half_width, patch.half_width_uncertainty());
+        add(contact.peak_pressure, paper.peak_pressure, contact.peak_pressure_uncertainty.value());
+      }
+  std::sort(ratios.begin(), ratios.end());
+  EXPECT_GE(ratios[ratios.size() / 20], 1);
+  EXPECT_LE(ratios[ratios.size() / 2], 10);
+}
+
+TEST(ContactPatch, EndsThatTheZoneCutsAreExactAndThePeakIsUnbounded) {
+  const ContactResultants contact =
+      contact_with({"Road/Contact zone=4.5, 4.9247779607693793", "Mesh/Radial cells=8"});
+  EXPECT_EQ(contact.sum(&ContactPatch::half_width_uncertainty), 0);
+  EXPECT_FALSE(contact.peak_pressure_uncertainty);
+  // The value is that of the semi-analytic solution.
+  const double exact = 1.383681;
+  EXPECT_NEAR(contact.stiffness->vertical, exact,
+              contact.relative_stiffness_uncertainty * contact.stiffness->vertical);
+}
+
+/// Half the width of contact in the scene of figure 4 with other @p settings.
+double half_width_with(const std::vector<std::string>& settings) {
+  return contact_with(settings).half_width();
+}
+
+TEST(ContactPatch, EndsAreWithinAThirdOfACellOnFewNodes) {
   // Three nodes in contact, 0.52 apart.
   EXPECT_NEAR(half_width_with({"Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=12"}),
-              paper_scenes()[0].half_width, 0.1);
+              paper_scenes()[0].half_width, 0.17);
   // The value is that of the semi-analytic solution; the nodes are 0.016 apart.
   EXPECT_NEAR(half_width_with({"Road/Curvature=10", "Road/Distance=0.7"}), 0.121624, 0.006);
 }

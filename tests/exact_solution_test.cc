@@ -78,7 +78,7 @@ TEST(GegenbauerPressure, HasItsTransform) {
 TEST(ExactSolution, HasTheKnownDigitsOfThePapersScenes) {
   for (const PaperScene& paper : paper_scenes()) {
     const ExactSolution solution =
-        solve_exactly({0.5, 1, paper.angular_velocity, paper.distance, paper.force_density});
+        solve_exactly({0.5, 1, paper.angular_velocity, {1, paper.distance}, paper.force_density});
     EXPECT_NEAR(solution.half_width, paper.half_width, 6e-7) << paper.figure;
     EXPECT_NEAR(solution.loads.total / paper.force, 1, 1e-10) << paper.figure;
     EXPECT_NEAR(solution.energy, paper.energy, 6e-12) << paper.figure;
@@ -89,15 +89,15 @@ TEST(ExactSolution, HasTheKnownDigitsOfThePapersScenes) {
 }
 
 TEST(ExactSolution, ScalesWithItsLengths) {
-  const ExactSolution one = solve_exactly({0.3, 1, 0.8, 0.75, -0.4});
-  const ExactSolution two = solve_exactly({0.6, 2, 0.4, 1.5, -0.2});
+  const ExactSolution one = solve_exactly({0.3, 1, 0.8, {1, 0.75}, -0.4});
+  const ExactSolution two = solve_exactly({0.6, 2, 0.4, {2, 1.5}, -0.2});
   EXPECT_NEAR(two.half_width / one.half_width, 1, 1e-9);
   EXPECT_NEAR(two.loads.total / one.loads.total, 2, 1e-9);
   EXPECT_NEAR(two.energy / one.energy, 4, 1e-9);
 }
 
 TEST(ExactSolution, WithoutContactIsTheContactFreeSolution) {
-  const ExactSolution solution = solve_exactly({0.5, 1, 0.5, 0.98, -1});
+  const ExactSolution solution = solve_exactly({0.5, 1, 0.5, {1, 0.98}, -1});
   EXPECT_EQ(solution.half_width, 0);
   EXPECT_EQ(solution.loads.total, 0);
   const Parameters parameters = parameters_of({"Road/Distance=0.98", "Cylinder/Radial force=-1",
@@ -108,7 +108,7 @@ TEST(ExactSolution, WithoutContactIsTheContactFreeSolution) {
 
 TEST(ExactSolution, IsOptimalPointByPoint) {
   for (const double omega : {0.5, 1.}) {
-    const ExactScene scene{0.5, 1, omega, 0.8, 0.2};
+    const ExactScene scene{0.5, 1, omega, {1, 0.8}, 0.2};
     const ExactSolution solution = solve_exactly(scene);
     const double w = solution.half_width;
     const std::vector<double> on_surface = cosine_coefficients(solution, 20000, {1})[0];

@@ -63,7 +63,7 @@ TEST(ManufacturedScene, SingularPressureConvergesLikeTheSquareRoot) {
 
 TEST(ManufacturedScene, OfTheFlatRoadIsTheFlatRoad) {
   for (const double omega : {0.5, 1.}) {
-    const ExactSolution exact = solve_exactly({0.5, 1, omega, 0.8, 0});
+    const ExactSolution exact = solve_exactly({0.5, 1, omega, {1, 0.8}, 0});
     const ManufacturedScene made =
         manufacture_scene(0.5, 1, omega, exact.pressure, exact.end_exponent, 0, 0.2, 20000);
     EXPECT_NEAR(made.exact.norm_squared / exact.norm_squared, 1, 1e-9);

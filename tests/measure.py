@@ -241,6 +241,49 @@ def accuracy():
     return [table(['mesh', *meshes], zip(names, *columns))] * 2
 
 
+def exact_numbers():
+    """The exact numbers of each scene of the study, by the names of their columns."""
+    text = (root / 'prm/studies/uncertainties.prm').read_text().replace('\\\n', ' ')
+    numbers = {}
+    for line in re.search(r'set Scenes = (.*)', text)[1].split(';'):
+        name, settings = line.split(':')
+        _, values = verified(dict(re.split(r' *= *', setting.strip()) for setting in settings.split('&')))
+        exact = {words: value[1] for words, value in values.items()}
+        numbers[name.strip()] = {
+            'contact.length': exact['contact length (nip)'], 'contact.half_width': exact['half-width'],
+            'contact.left_end': 1.5 * math.pi - exact['half-width'],
+            'contact.right_end': 1.5 * math.pi + exact['half-width'],
+            'contact.peak_pressure': exact.get('peak pressure'),  # infinite if the zone cuts contact
+            'contact.stiffness.vertical_load': exact['vertical stiffness']}
+    return numbers
+
+
+def uncertainties():
+    exact = exact_numbers()
+    runs = study('studies/uncertainties') + study('studies/uncertainties', {
+        'Study/Vary': 'Mesh/Degree = 1 | 2 | 4; Mesh/Adaptive cycles = 2 | 4 | 6 | 8'})
+    words = {'contact.length': 'nip', 'contact.half_width': 'half-width', 'contact.left_end': 'left end',
+             'contact.right_end': 'right end', 'contact.peak_pressure': 'peak pressure',
+             'contact.stiffness.vertical_load': 'vertical stiffness'}
+
+    def row(name, kind, chosen):
+        pairs = [(run[name + '_uncertainty'], abs(run[name] - exact[run['scene']][name])) for run in chosen
+                 if exact[run['scene']][name] is not None and run[name + '_uncertainty'] != '']
+        round_off = 1e-11
+        covered = sum(error <= estimate + round_off for estimate, error in pairs) / len(pairs)
+        ratios = sorted(estimate / error for estimate, error in pairs if error > round_off)
+        return [words[name], *kind, len(pairs), f'{100 * covered:.1f} %', f'{ratios[len(ratios) // 2]:.1f}']
+
+    titles = ['runs', 'covered', 'estimate / true error, median']
+    meshes = {'uniform': lambda run: 'Mesh/Adaptive cycles' not in run,
+              'adaptive': lambda run: 'Mesh/Adaptive cycles' in run}
+    return [table(['quantity', *titles], [row(name, [], runs) for name in words]),
+            table(['quantity', 'elements', 'meshes', *titles],
+                  [row(name, [f'Q{degree}', mesh], [run for run in runs if is_of_mesh(run) and
+                                                    run['Mesh/Degree'] == degree])
+                   for name in words for degree in (1, 2, 4) for mesh, is_of_mesh in meshes.items()])]
+
+
 def uniform(degree, radial, angular):
     return {'Mesh/Degree': degree, 'Mesh/Radial cells': radial, 'Mesh/Angular cells': angular}
 
@@ -311,7 +354,8 @@ def fill(name, text):
             page.write_text(after)
 
 
-for measurement in (figures, orders, adaptive, extremes, wanted, accuracy, phases, sweep, processes,
+for measurement in (figures, orders, adaptive, extremes, wanted, accuracy,
+                    uncertainties, phases, sweep, processes,
                     calibration, pictures):
     name = measurement.__name__
     if arguments.names and name not in arguments.names:

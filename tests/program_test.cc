@@ -40,12 +40,13 @@ TEST_F(Program, WritesEveryDocumentedFile) {
       bytes += fs::file_size(directory / "out" / name);
   EXPECT_EQ(json["work"]["bytes_written"], bytes);
 
-  EXPECT_EQ(read("contact.csv").find("z,u,phi,gap,pressure,weight\n"), 0u);
+  EXPECT_EQ(read("contact.csv").find("z,road_length,u,phi,gap,pressure,weight\n"), 0u);
   const auto rows = csv_rows(read("contact.csv"));
   double force = 0;
   for (const CsvRow& row : rows) {
     const auto number = [&row](const char* name) { return std::stod(row.at(name)); };
     EXPECT_NEAR(number("gap"), number("phi") - number("u"), 1e-15);
+    EXPECT_NEAR(number("road_length"), 0.8 * std::tan(number("z") - 1.5 * M_PI), 1e-12);
     EXPECT_EQ(number("gap") * number("pressure"), 0);
     force += number("pressure") * number("weight");
   }

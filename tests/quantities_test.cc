@@ -102,4 +102,23 @@ TEST(Rounding, KeepsBounds) {
   EXPECT_EQ(rounded_down(0, 3), "0");
 }
 
+// What is left out is less than half of the uncertainty, and the uncertainty does not shrink.
+TEST(Rounding, FollowsTheUncertainty) {
+  for (const double number : {0.8937, 1886.724657, 5.4e-13, 3.2e21, 0.})
+    for (const double relative : {1.2, 0.096, 0.0153, 1e-4, 9.99e-6})
+      for (const double sign : {1., -1.}) {
+        const double x = sign * number, uncertainty = relative * std::max(number, 1e-20);
+        const std::string text = with_uncertainty(x, uncertainty);
+        const double shown = std::stod(text.substr(text.find("+-") + 2));
+        EXPECT_GE(shown, uncertainty * (1 - 1e-12)) << text;
+        EXPECT_LE(shown, uncertainty * 1.5) << text;
+        EXPECT_NEAR(std::stod(text), x, uncertainty / 2) << text;
+        EXPECT_EQ(text.find(rounded_by(x, uncertainty)), 0u) << text;
+      }
+  EXPECT_EQ(with_uncertainty(0.8937, 0.053), "0.89 +- 0.06");
+  EXPECT_EQ(with_uncertainty(0.8937, 0.0123), "0.894 +- 0.013");
+  EXPECT_EQ(with_uncertainty(5147, 213), "5100 +- 300");
+  EXPECT_EQ(with_uncertainty(0.8, 0.006), "0.800 +- 0.006");
+}
+
 } // namespace

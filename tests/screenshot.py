@@ -3,6 +3,7 @@
 
 Usage: xvfb-run -a screenshot.py DIRECTORY PICTURE.png
 """
+import re
 import sys
 import vtk
 
@@ -23,9 +24,9 @@ surface_filter = vtk.vtkDataSetSurfaceFilter()
 surface_filter.SetInputData(solution)
 surface_filter.SetNonlinearSubdivisionLevel(3)
 surface_filter.Update()
-# With units the name is followed by one, as in 'displacement [mm]'.
+# With units the name is followed by one, as in 'displacement_mm'.
 displacement = next(name for name in (solution.GetPointData().GetArrayName(i) for i in range(
-    solution.GetPointData().GetNumberOfArrays())) if name.split(' ')[0] == 'displacement')
+    solution.GetPointData().GetNumberOfArrays())) if re.fullmatch('displacement(_(?!vector).*)?', name))
 low, high = solution.GetPointData().GetArray(displacement).GetRange()
 colours = vtk.vtkColorTransferFunction()
 colours.SetColorSpaceToDiverging()

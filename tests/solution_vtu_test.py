@@ -10,6 +10,7 @@ import sys
 import tempfile
 
 from vtkmodules.vtkCommonCore import reference
+from vtkmodules.vtkCommonDataModel import vtkCellLocator
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 program, scene, degree = sys.argv[1], sys.argv[2], int(sys.argv[3])
@@ -175,6 +176,63 @@ for probed in range(1, 9) if degree == 1 else []:
                 check(abs(u - surface.GetPointData().GetArray("displacement").GetValue(i))
                       < 2e-6 * greatest, f"surface, degree {probed}")
     check(n_probed >= 4 * 18, "cells under the contact")
+
+# At hanging nodes the curve of the coarser cell's side is that of the sides of the finer cells.
+with tempfile.TemporaryDirectory() as directory:
+    run(directory, "high-order", "Mesh/Radial cells=2", "Mesh/Angular cells=24",
+        "Mesh/Adaptive cycles=3", "Output/Files=solution")
+    grid = read(directory, "solution.vtu")
+
+
+def place(cell, coordinates):
+    position = [0.0, 0.0, 0.0]
+    cell.EvaluateLocation(reference(0), [*coordinates, 0.0], position,
+                          [0.0] * cell.GetNumberOfPoints())
+    return position
+
+
+def middle(one, other):
+    return tuple((a + b) / 2 for a, b in zip(one, other))
+
+
+corners = ((0, 0), (1, 0), (1, 1), (0, 1))
+sides = {}  # by the places of their ends in (r, z), in both directions
+for k in range(grid.GetNumberOfCells()):
+    cell = grid.GetCell(k)
+    nodes = [tuple(round(grid.GetPointData().GetArray(name).GetValue(cell.GetPointId(i)), 5)
+                   for name in ("radius", "angle")) for i in range(4)]
+    for i, j in ((0, 1), (1, 2), (2, 3), (3, 0)):
+        for one, other in ((i, j), (j, i)):
+            sides.setdefault((nodes[one], nodes[other]), []).append(
+                (k, corners[one], corners[other]))
+n_hanging = 0
+ends = {end for end, _ in sides}
+for (begin, end), own in sides.items():
+    for near in (node for node in ends if len(own) == 1 and max(
+            abs(a - b) for a, b in zip(node, middle(begin, end))) < 3e-5):
+        for k, one, other in sides.get((begin, near), []):
+            coarse, first, last = own[0]
+            for t in (0.0, 0.5, 1.0):
+                here = place(grid.GetCell(k), [a + t * (b - a) for a, b in zip(one, other)])
+                there = place(grid.GetCell(coarse),
+                              [a + t / 2 * (b - a) for a, b in zip(first, last)])
+                check(math.dist(here, there) < 3e-7, "no crack at a hanging node")
+            n_hanging += 1
+check(n_hanging > 10, "hanging nodes")
+
+# Cells of four nodes leave no crack either, so that VTK finds every point of a circle.
+with tempfile.TemporaryDirectory() as directory:
+    run(directory, "linear", "Mesh/Radial cells=2", "Mesh/Angular cells=24",
+        "Mesh/Adaptive cycles=3", "Output/Files=solution")
+    grid = read(directory, "solution.vtu")
+locator = vtkCellLocator()
+locator.SetDataSet(grid)
+locator.BuildLocator()
+for radius in (0.6, 0.7, 0.75):
+    for i in range(400):
+        z = 2 * math.pi * (i + 0.5) / 400
+        check(locator.FindCell([radius * math.cos(z), radius * math.sin(z), 0.0]) >= 0,
+              "a cell at every point")
 
 # One piece, also of many cells: some programs read the last piece only.
 if degree == 1:

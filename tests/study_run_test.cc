@@ -41,7 +41,7 @@ RunRecord some_record() {
   record.reference = "the semi-analytic solution";
   record.failure = "no \"way\", at\nall";
   record.remarks = {"\"rough\", or so", "ζ", "\xff"};
-  record.pressure = {{4.5, 0}, {4.6, 1. / 7}};
+  record.profile = {{4.5, -0.2, 0}, {4.6, -0.1, 1. / 7}};
   record.files = {{OutputFile::parameters, OutputFile::surface}, CellKind::linear, {"m", "s", "N"}};
   record.sizes = {{"surface.vtu", 3000000000}, {"road.vtu", 1}};
   return record;
@@ -56,7 +56,7 @@ TEST(RunRecord, IsReadAsItWasWritten) {
   EXPECT_EQ(again->failure, record.failure);
   EXPECT_EQ(again->remarks[0], record.remarks[0]);
   EXPECT_EQ(again->remarks[1], record.remarks[1]);
-  EXPECT_EQ(again->pressure, record.pressure);
+  EXPECT_EQ(again->profile, record.profile);
   EXPECT_TRUE(again->files.include(record.files) && record.files.include(again->files));
   EXPECT_EQ(again->sizes, record.sizes);
 }

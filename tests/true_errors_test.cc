@@ -222,4 +222,24 @@ TEST(FindExactSolution, KnowsItsLimits) {
   EXPECT_LT(cut->energy, wide->energy);
 }
 
+// The guarantees hold; each of them that is shifted away is found out.
+TEST(TrueErrors, FindOutAWrongGuarantee) {
+  const Parameters parameters = parameters_of({"Mesh/Radial cells=3", "Mesh/Angular cells=60"});
+  const Scene scene = make_scene(parameters);
+  Result result = simulate(scene, parameters).result;
+  const auto exact = find_exact_solution(scene);
+  ASSERT_TRUE(exact);
+  result.errors = errors_of(parameters, *exact);
+  EXPECT_TRUE(contradicted_guarantees(result, *exact, scene.units).empty());
+  CertifiedError& certified = result.certified.value();
+  certified.energy_norm = 0.9 * result.errors->energy_norm;
+  certified.upper_bound = exact->energy - 1e-6;
+  certified.loads.total.lower = exact->loads.total + 1e-6;
+  certified.loads.vertical.upper = exact->loads.vertical - 1e-6;
+  const auto notes = contradicted_guarantees(result, *exact, scene.units);
+  EXPECT_EQ(notes.size(), 4u);
+  for (const Note& note : notes)
+    EXPECT_EQ(note.kind, Note::Kind::shortfall);
+}
+
 } // namespace

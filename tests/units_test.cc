@@ -182,4 +182,17 @@ TEST(Units, AreRefusedUnlessPositiveAndFinite) {
     EXPECT_THROW(parameters_of({std::string("Output/Unit names=") + names}), BadInput);
 }
 
+TEST(Units, NamesOfFieldsHaveLettersThatAllReadersTake) {
+  Units units;
+  units.material.unit_names = {"mm", "s", "N"};
+  for (const Quantity quantity :
+       {Quantity::angle, Quantity::length, Quantity::pressure, Quantity::angular_velocity,
+        Quantity::force, Quantity::energy, Quantity::energy_norm, Quantity::number})
+    EXPECT_TRUE(std::regex_match(units.as_suffix(quantity), std::regex("(_[A-Za-z0-9]+)*")))
+        << units.as_suffix(quantity);
+  EXPECT_EQ(units.as_suffix(Quantity::pressure), "_N_per_mm2");
+  EXPECT_EQ(units.as_suffix(Quantity::energy_norm), "_root_N_mm");
+  EXPECT_EQ(Units().as_suffix(Quantity::length), "");
+}
+
 } // namespace

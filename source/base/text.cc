@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -91,6 +92,42 @@ std::string rounded_up(double number, int digits) {
 std::string rounded_down(double number, int digits) {
   const std::string up = rounded_up(-number, digits);
   return number > 0 ? up.substr(1) : number < 0 ? '-' + up : up;
+}
+
+namespace {
+
+/// An uncertainty rounded up to one digit, to two where the first is a 1, and the power of ten of
+/// its last digit.
+std::pair<double, int> rounded_uncertainty(double uncertainty) {
+  const double up = std::stod(rounded_up(uncertainty, 2));
+  const int place = std::floor(std::log10(up));
+  if (up < 2 * std::pow(10., place))
+    return {up, place - 1};
+  const double one_digit = std::stod(rounded_up(uncertainty, 1));
+  return {one_digit, std::floor(std::log10(one_digit))};
+}
+
+std::string rounded_to_place(double number, int place) {
+  constexpr int most_digits = 9;
+  const double unit = std::pow(10., place), nearest = std::round(number / unit) * unit;
+  if (place < -most_digits || !std::isfinite(nearest))
+    return rounded(std::isfinite(nearest) ? nearest : number, most_digits);
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(std::max(0, -place)) << nearest + 0.; // no -0
+  return text.str();
+}
+
+} // namespace
+
+std::string rounded_by(double number, double uncertainty) {
+  return rounded_to_place(number, rounded_uncertainty(uncertainty).second);
+}
+
+std::string with_uncertainty(double number, double uncertainty) {
+  if (!(uncertainty > 0 && std::isfinite(uncertainty)))
+    return rounded(number, 9) + " +- " + rounded(uncertainty, 1);
+  const auto [rounded_up, place] = rounded_uncertainty(uncertainty);
+  return rounded_to_place(number, place) + " +- " + rounded_to_place(rounded_up, place);
 }
 
 std::string shortest_text(double number) {

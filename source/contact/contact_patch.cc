@@ -2,10 +2,12 @@
 
 #include "rollwave/scene/scene.h"
 
-#include <deal.II/base/numbers.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/polynomial.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rollwave {
 
@@ -15,15 +17,38 @@ namespace {
 
 /// The contact nodes in the order of their angles.
 struct Profile {
+  const Scene& scene;
+  const Road& road;
   std::vector<double> angle;
   Vector<double> gap, pressure;
+  const std::vector<double>& cell_ratio;
+
+  bool has_node(int i) const { return 0 <= i && i < int(angle.size()); }
+
+  /// False for the tangent of a drum and beyond.
+  bool is_over_road(double z) const {
+    return std::abs(from_lowest_point(z)) < road.tangent_angle() - angular_round_off;
+  }
+
+  /// The last angle in the direction @p out (-1 or 1) at which contact can end: that of the zone,
+  /// or of the tangent of a drum.
+  double reach(int out) const {
+    return out < 0 ? std::max(scene.zone_begin, lowest_point - road.tangent_angle())
+                   : std::min(scene.zone_end, lowest_point + road.tangent_angle());
+  }
 };
 
-/// A stretch of contact: its first and last node, and the number of free nodes on each side, shared
-/// with the next stretch.
+/// The first and the last node of a stretch of contact.
 struct Stretch {
   int first, last;
-  int n_before, n_after;
+};
+
+/// An end of a stretch; @p edge is the length of the mesh's edge there, an angle.
+struct PatchEnd {
+  double angle;
+  double uncertainty;
+  double edge;
+  bool is_cut = false; ///< by the zone
 };
 
 /// Where the line through (z0, value0^power) and (z1, value1^power) is zero; nullopt unless the
@@ -41,113 +66,162 @@ double end_exponent(const Scene& scene, double spacing) {
   return spacing > std::pow(2 * margin, 1.5) ? 1. / 3 : 1. / 2;
 }
 
-/// The end of a stretch next to its outermost node @p i, with @p n_outside nodes in the direction
-/// @p out (-1 or 1) and @p n_inside more nodes of the stretch in the other.
-double find_end(const Scene& scene, const Profile& nodes, int i, int out, int n_outside,
-                int n_inside) {
+/// The end of a stretch next to its outermost node @p i, in the direction @p out (-1 or 1).
+PatchEnd find_end(const Profile& nodes, int i, int out) {
   const auto& z = nodes.angle;
-  const double spacing = std::abs(z[i] - z[i + out]), s = end_exponent(scene, spacing);
-  const auto root_of_gap = [&](int near, int far) {
-    const int k = i + near * out, l = i + far * out;
-    return root(z[k], nodes.gap[k], z[l], nodes.gap[l], 1 / (1 + s));
+  const int near = i + out, far = near + out, inner = i - out;
+  const double reach = nodes.reach(out);
+  const double neighbour = nodes.has_node(near)    ? z[near]
+                           : nodes.has_node(inner) ? z[inner]
+                                                   : reach;
+  const double edge = std::abs(neighbour - z[i]), s = end_exponent(nodes.scene, edge);
+  std::optional<double> by_gap, by_pressure; // distances from the node i, in edges
+  if (nodes.has_node(far) && nodes.is_over_road(z[far]))
+    by_gap = root(1, nodes.gap[near], std::abs(z[far] - z[i]) / edge, nodes.gap[far], 1 / (1 + s));
+  if (nodes.has_node(inner))
+    by_pressure = root(0, nodes.pressure[i], -std::abs(z[inner] - z[i]) / edge,
+                       nodes.pressure[inner], 1 / (1 - s));
+  // The law of a pressure that is singular at the end of the zone has its root far beyond, or none.
+  if (!nodes.has_node(near) && nodes.is_over_road(reach) && !(by_pressure && *by_pressure < 1))
+    return {reach, 0, edge, true};
+  const double farthest = std::clamp(out * (reach - z[i]) / edge, 0., 1.);
+  const auto guess = [&](const std::optional<double>& distance) {
+    return std::clamp(distance.value_or(0.25), -0.5, farthest);
   };
-  std::optional<double> end;
-  if (n_outside >= 4)
-    end = root_of_gap(2, 4);
-  if (!end && n_outside >= 2)
-    end = root_of_gap(1, 2);
-  if (!end && n_inside >= 1)
-    end = root(z[i], nodes.pressure[i], z[i - out], nodes.pressure[i - out], 1 / (1 - s));
-  const double inner = z[i] - out * spacing / 2, outer = z[i + out] + out * spacing / 2;
-  return std::clamp(end.value_or(z[i] + out * spacing / 2), std::min(inner, outer),
-                    std::max(inner, outer));
+  const double from_gap = guess(by_gap), from_pressure = guess(by_pressure);
+  const double share = by_gap && by_pressure ? 0.25 : 0.5;
+  const double stretch = std::max(1., nodes.cell_ratio[i] / 2);
+  return {z[i] + out * edge * (from_gap + from_pressure) / 2,
+          edge * (share + std::abs(from_gap - from_pressure) / 2) * stretch, edge};
 }
 
 /// The stretches of active nodes: two of them are apart where the gap of a node between them is
 /// larger than @p negligible_gap.
 std::vector<Stretch> find_stretches(const std::vector<bool>& active, const Profile& nodes,
                                     double negligible_gap) {
-  const int n = active.size();
   std::vector<Stretch> stretches;
   double opening = 0; // the largest gap of the nodes since the last active one
-  for (int i = 0; i < n; ++i) {
+  for (int i = 0; i < int(active.size()); ++i) {
     if (!active[i]) {
       opening = std::max(opening, nodes.gap[i]);
       continue;
     }
-    if (stretches.empty())
-      stretches.push_back({i, i, i, 0});
-    else if (opening > negligible_gap) {
-      Stretch& before = stretches.back();
-      before.n_after = (i - before.last) / 2; // half of the nodes in between
-      stretches.push_back({i, i, before.n_after, 0});
-    } else
+    if (stretches.empty() || opening > negligible_gap)
+      stretches.push_back({i, i});
+    else
       stretches.back().last = i;
     opening = 0;
   }
-  if (!stretches.empty())
-    stretches.back().n_after = n - 1 - stretches.back().last;
   return stretches;
 }
 
-/// Between which angles contact can end: those of the zone, up to the tangent of a drum.
-std::pair<double, double> reach_of(const Scene& scene, const Road& road) {
-  const double tangent = road.tangent_angle();
-  return {std::max(scene.zone_begin, lowest_point - tangent),
-          std::min(scene.zone_end, lowest_point + tangent)};
+/// The numbers of a stretch with its ends.
+ContactPatch measure_patch(const Profile& nodes, const Vector<double>& force,
+                           const Stretch& stretch, PatchEnd begin, PatchEnd end) {
+  if (end.angle < begin.angle)
+    std::swap(begin, end);
+  const auto road_between = [&](double from, double to) {
+    return nodes.road.arc_length(from_lowest_point(to)) -
+           nodes.road.arc_length(from_lowest_point(from));
+  };
+  ContactPatch patch = {};
+  patch.begin = begin.angle;
+  patch.begin_uncertainty = begin.uncertainty;
+  patch.end = end.angle;
+  patch.end_uncertainty = end.uncertainty;
+  patch.length = road_between(patch.begin, patch.end);
+  patch.length_uncertainty = road_between(begin.angle, begin.angle + begin.uncertainty) +
+                             road_between(end.angle - end.uncertainty, end.angle);
+  for (int i = stretch.first; i <= stretch.last; ++i) {
+    patch.force += force(i);
+    patch.centroid += force(i) * nodes.angle[i];
+    patch.peak_pressure = std::max(patch.peak_pressure, nodes.pressure[i]);
+  }
+  patch.centroid = patch.force > 0 ? patch.centroid / patch.force : nodes.angle[stretch.first];
+  return patch;
+}
+
+/// The distance of the pressure at the node @p i from the polynomial through those of up to @p n
+/// neighbours on each side.
+double roughness(const Profile& nodes, int i, int n) {
+  std::vector<Point<1>> points;
+  std::vector<double> pressures;
+  for (int k = i - n; k <= i + n; ++k)
+    if (k != i && nodes.has_node(k)) {
+      points.emplace_back(nodes.angle[k] - nodes.angle[i]);
+      pressures.push_back(nodes.pressure[k]);
+    }
+  double difference = nodes.pressure[i];
+  for (unsigned int k = 0; k < points.size(); ++k)
+    difference -= pressures[k] * Polynomials::Polynomial<double>(points, k).value(0);
+  return std::abs(difference);
+}
+
+/// The error of the pressure at its peak in a @p patch.
+double peak_uncertainty(const Profile& nodes, const Stretch& stretch, const ContactPatch& patch,
+                        unsigned int degree) {
+  const auto begin = nodes.pressure.begin();
+  const int peak = std::max_element(begin + stretch.first, begin + stretch.last + 1) - begin;
+  double roughest = 0;
+  for (const int i : {peak - 1, peak, peak + 1})
+    if (nodes.has_node(i))
+      roughest = std::max(roughest, roughness(nodes, i, (degree + 1) / 2));
+  const double relative_length = patch.half_width_uncertainty() / patch.half_width();
+  return roughest + patch.peak_pressure * relative_length * relative_length;
 }
 
 } // namespace
 
-double ContactResultants::half_width() const {
+double ContactPatch::half_width() const {
+  return (end - begin) / 2;
+}
+
+double ContactPatch::half_width_uncertainty() const {
+  return (begin_uncertainty + end_uncertainty) / 2;
+}
+
+double ContactResultants::sum(const std::function<double(const ContactPatch&)>& number) const {
   double sum = 0;
   for (const ContactPatch& patch : patches)
-    sum += (patch.end - patch.begin) / 2;
+    sum += number(patch);
   return sum;
 }
 
-double ContactResultants::length() const {
-  double sum = 0;
-  for (const ContactPatch& patch : patches)
-    sum += patch.length;
-  return sum;
-}
-
-ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
-                                  const ContactProblem& problem, const ContactSolution& solution) {
+ContactResultants measure_contact(const Scene& scene, const ContactProblem& problem,
+                                  const ContactSolution& solution, unsigned int degree) {
   const auto& [displacement, force, kept] = solution.state;
+  Profile profile = {scene,
+                     problem.road,
+                     {},
+                     problem.gaps(displacement),
+                     problem.pressures(force),
+                     problem.cell_ratio};
+  for (const double x : problem.x)
+    profile.angle.push_back(lowest_point + x);
   ContactResultants resultants = {};
   resultants.loads = loads_of(problem, force);
-  Profile profile = {{}, problem.gaps(displacement), problem.pressures(force)};
-  for (unsigned int i = 0; i < nodes.size(); ++i) {
-    resultants.active_nodes += solution.active[i];
-    profile.angle.push_back(nodes[i].angle);
-    resultants.peak_pressure = std::max(resultants.peak_pressure, profile.pressure[i]);
-  }
-  const auto [least_begin, largest_end] = reach_of(scene, problem.road);
+  resultants.active_nodes = std::count(solution.active.begin(), solution.active.end(), true);
+  resultants.peak_pressure_uncertainty = 0;
+  double moving = 0; // by how much all ends may move
   const double negligible_gap = std::max(solution.gap_accuracy, 1e-10 * displacement.linfty_norm());
   for (const Stretch& stretch : find_stretches(solution.active, profile, negligible_gap)) {
-    const auto [first, last, n_before, n_after] = stretch;
-    ContactPatch patch = {least_begin, largest_end, 0, 0, 0};
-    if (n_before > 0)
-      patch.begin =
-          std::max(least_begin, find_end(scene, profile, first, -1, n_before, last - first));
-    if (n_after > 0)
-      patch.end = std::min(largest_end, find_end(scene, profile, last, 1, n_after, last - first));
-    if (patch.end < patch.begin)
-      std::swap(patch.begin, patch.end);
-    patch.length = problem.road.arc_length(from_lowest_point(patch.end)) -
-                   problem.road.arc_length(from_lowest_point(patch.begin));
-    for (int i = first; i <= last; ++i) {
-      patch.force += force(i);
-      patch.centroid += force(i) * profile.angle[i];
-      patch.peak_pressure = std::max(patch.peak_pressure, profile.pressure[i]);
-    }
-    patch.centroid = patch.force > 0 ? patch.centroid / patch.force : profile.angle[first];
+    const PatchEnd begin = find_end(profile, stretch.first, -1),
+                   end = find_end(profile, stretch.last, 1);
+    const ContactPatch patch = measure_patch(profile, force, stretch, begin, end);
     resultants.patches.push_back(patch);
+    for (const PatchEnd& one : {begin, end})
+      moving += one.is_cut ? one.edge : one.uncertainty;
+    if (patch.peak_pressure >= resultants.peak_pressure) {
+      resultants.peak_pressure = patch.peak_pressure;
+      resultants.peak_pressure_uncertainty.reset();
+      if (!begin.is_cut && !end.is_cut)
+        resultants.peak_pressure_uncertainty = peak_uncertainty(profile, stretch, patch, degree);
+    }
   }
-  if (const auto& patches = resultants.patches; !patches.empty())
+  if (const auto& patches = resultants.patches; !patches.empty()) {
     resultants.ends = std::pair(patches.front().begin, patches.back().end);
+    resultants.relative_stiffness_uncertainty = moving / 2 / (2 * resultants.half_width());
+  }
   return resultants;
 }
 

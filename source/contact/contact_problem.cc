@@ -38,6 +38,7 @@ ContactProblem make_contact_problem(const ContactBoundary& boundary, const Scene
     problem.phi(i) = scene.phi(nodes[i].angle);
     problem.weight(i) = nodes[i].weight;
     problem.x.push_back(from_lowest_point(nodes[i].angle));
+    problem.cell_ratio.push_back(nodes[i].cell_ratio);
   }
   return problem;
 }

@@ -202,7 +202,7 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
     road.distance = distance;
     road.pressure = problem.pressures(contact.state.force);
     const ContactResultants resultants =
-        measure_contact(moved, boundary.contact_nodes(), problem, contact);
+        measure_contact(moved, problem, contact, boundary.space().dof_handler().get_fe().degree);
     road.history.push_back({distance, resultants.loads.of(target.kind), resultants.length(),
                             static_cast<unsigned int>(contact.history.size())});
     const double reached = target.of(road.history.back());

@@ -24,11 +24,11 @@ AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Road& road
 FieldVector project_contact_nodes(const ContactBoundary& boundary, const AdmissibleRoad& road,
                                   const std::vector<bool>& active, FieldVector field) {
   for (unsigned int i = 0; i < active.size(); ++i) {
-    const auto& [dof, angle, area] = boundary.contact_nodes()[i];
-    if (!field.in_local_range(dof))
+    const SurfaceNode& node = boundary.contact_nodes()[i];
+    if (!field.in_local_range(node.dof))
       continue;
-    const double limit = road.limit(angle).value;
-    field(dof) = active[i] ? limit : std::min(field(dof), limit);
+    const double limit = road.limit(node.angle).value;
+    field(node.dof) = active[i] ? limit : std::min(field(node.dof), limit);
   }
   boundary.space().constraints().distribute(field);
   field.update_ghost_values();

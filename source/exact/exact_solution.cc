@@ -23,7 +23,7 @@ namespace {
 
 /// Where the contact-free surface would meet the road: w is smaller than this angle.
 double crossing_angle(const ExactScene& scene) {
-  return scene.road().crossing_angle(scene.contact_free_displacement(scene.outer_radius));
+  return scene.road.crossing_angle(scene.contact_free_displacement(scene.outer_radius));
 }
 
 /// The zero of the defect, which falls from positive to negative: looked for within @p margin of
@@ -75,7 +75,7 @@ ExactSolution solution_at(const ExactScene& scene, const GalerkinPressure& galer
   const double a = scene.inner_radius, b = scene.outer_radius, f = scene.force_density;
   solution.loads.total = b * solution.pressure.fourier_integral(0).real();
   solution.loads.vertical = b * solution.pressure.fourier_integral(1).real();
-  const Road road = scene.road();
+  const Road& road = scene.road;
   const auto contact_work = [&](const std::function<double(double)>& function) {
     const Vector<double> moments = galerkin.moments(w, function);
     double sum = 0;

@@ -116,7 +116,7 @@ GalerkinPressure::~GalerkinPressure() = default;
 GalerkinPressure::Trial GalerkinPressure::solve(double w) const {
   const FullMatrix<double> matrix = interaction(w);
   const double free = scene.contact_free_displacement(scene.outer_radius);
-  const Road road = scene.road();
+  const Road& road = scene.road;
   const Vector<double> rhs = moments(w, [&](double x) { return free - road.displacement(x); });
   LAPACKFullMatrix<double> system(n);
   for (unsigned int i = 0; i < n; ++i)

@@ -23,12 +23,12 @@ namespace {
 /// A node of an edge on r = b.
 struct EdgeNode {
   double begin; ///< angle at which the edge begins
-  double angle, weight;
+  double angle, weight, cell_ratio;
   types::global_dof_index dof;
 
   template <class Archive>
   void serialize(Archive& archive, unsigned int) {
-    archive& begin& angle& weight& dof;
+    archive& begin& angle& weight& cell_ratio& dof;
   }
 };
 
@@ -42,12 +42,14 @@ std::vector<EdgeNode> gather_edges(const RingSpace& space) {
     if (!cell->is_locally_owned() || !cell->at_boundary(1))
       continue;
     const double begin = cell->vertex(1)[1], length = cell->vertex(3)[1] - begin;
+    const double cell_ratio =
+        (cell->vertex(1)[0] - cell->vertex(0)[0]) / (space.outer_radius() * length);
     for (unsigned int k = 0; k <= p; ++k) {
       // A node on the seam counts as the node that its constraint equates it with.
       const auto dof = dofs.of(cell)[p + (p + 1) * k];
       const auto* const entries = space.constraints().get_constraint_entries(dof);
       own.push_back({begin, begin + length * rule.point(k)[0],
-                     space.outer_radius() * length * rule.weight(k),
+                     space.outer_radius() * length * rule.weight(k), cell_ratio,
                      entries ? entries->front().first : dof});
     }
   }
@@ -109,8 +111,11 @@ void RingSpace::find_surface(const Scene& scene) {
   };
   const std::vector<EdgeNode> edges = gather_edges(*this);
   std::map<types::global_dof_index, SurfaceNode> nodes;
-  for (const auto& [begin, z, weight, dof] : edges)
-    nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second.weight += weight;
+  for (const auto& [begin, z, weight, cell_ratio, dof] : edges) {
+    SurfaceNode& node = nodes.emplace(dof, SurfaceNode{dof, z - turn(z), 0.}).first->second;
+    node.weight += weight;
+    node.cell_ratio = std::max(node.cell_ratio, cell_ratio);
+  }
   for (const auto& [dof, node] : nodes)
     surface.push_back(node);
   std::sort(surface.begin(), surface.end(),

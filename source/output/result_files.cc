@@ -28,12 +28,14 @@ std::string contact_csv(const Result& result, const Units& units) {
                area = length * units.material.width;
   std::ostringstream out;
   out.precision(std::numeric_limits<double>::max_digits10);
-  out << "z" << units.in_brackets(Quantity::angle) << ",u" << length_unit << ",phi" << length_unit
-      << ",gap" << length_unit << ",pressure" << units.in_brackets(Quantity::pressure) << ",weight"
-      << units.in_brackets(Quantity::area) << '\n';
+  out << "z" << units.in_brackets(Quantity::angle) << ",road_length" << length_unit << ",u"
+      << length_unit << ",phi" << length_unit << ",gap" << length_unit << ",pressure"
+      << units.in_brackets(Quantity::pressure) << ",weight" << units.in_brackets(Quantity::area)
+      << '\n';
   for (const ContactRow& row : result.contact_rows)
-    out << row.angle << ',' << row.displacement * length << ',' << row.phi * length << ','
-        << row.gap * length << ',' << row.pressure * pressure << ',' << row.weight * area << '\n';
+    out << row.angle << ',' << row.road_length * length << ',' << row.displacement * length << ','
+        << row.phi * length << ',' << row.gap * length << ',' << row.pressure * pressure << ','
+        << row.weight * area << '\n';
   return out.str();
 }
 

@@ -128,10 +128,13 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
     out << "  contact in " << contact.patches.size() << " patches, " << contact.active_nodes
         << " nodes\n";
   for (const ContactPatch& patch : contact.patches) {
-    out << "  contact from " << rounded(patch.begin, 6) << " to " << rounded(patch.end, 6)
-        << " rad, half-width " << rounded((patch.end - patch.begin) / 2, 5) << " rad";
+    out << "  contact from " << with_uncertainty(patch.begin, patch.begin_uncertainty) << " to "
+        << with_uncertainty(patch.end, patch.end_uncertainty) << " rad, half-width "
+        << with_uncertainty(patch.half_width(), patch.half_width_uncertainty()) << " rad";
     if (contact.patches.size() > 1)
-      out << ",\n    on " << rounded(patch.length * units.of(Quantity::length), 5)
+      out << ",\n    on "
+          << with_uncertainty(patch.length * units.of(Quantity::length),
+                              patch.length_uncertainty * units.of(Quantity::length))
           << units.after(Quantity::length) << " of the road, force "
           << rounded(patch.force * units.of(Quantity::force), 9) << units.after(Quantity::force);
     out << '\n';
@@ -157,9 +160,12 @@ void report_quantities(std::ostream& out, const Result& result, const Units& uni
     const auto value = quantity.in_users_units(result, units);
     if (!(quantity.shown & Shown::screen) || !value || std::isnan(*value))
       continue;
+    const double uncertainty = uncertainty_of(quantity.name, result, units).value_or(0);
+    const std::string text =
+        uncertainty > 0 ? with_uncertainty(*value, uncertainty) : quantity.text(*value);
     const std::string symbol = quantity.symbol.empty() ? "   " : quantity.symbol + " =";
     out << "  " << std::left << std::setw(width - symbol.size()) << quantity.words << symbol << ' '
-        << quantity.text(*value) << units.after(quantity.quantity);
+        << text << units.after(quantity.quantity);
     if (const auto interval = guaranteed_interval(quantity.name, result, units))
       out << "   guaranteed " << interval_text(*interval);
     out << '\n';

@@ -52,8 +52,11 @@ Json patches_json(const Result& result, const Units& units) {
   Json json = Json::array();
   for (const ContactPatch& patch : result.contact.patches)
     json.push_back({{"left_end", patch.begin},
+                    {"left_end_uncertainty", patch.begin_uncertainty},
                     {"right_end", patch.end},
+                    {"right_end_uncertainty", patch.end_uncertainty},
                     {"length", patch.length * units.of(Quantity::length)},
+                    {"length_uncertainty", patch.length_uncertainty * units.of(Quantity::length)},
                     {"force", patch.force * units.of(Quantity::force)},
                     {"centroid", patch.centroid},
                     {"peak_pressure", patch.peak_pressure * units.of(Quantity::pressure)}});

@@ -67,7 +67,7 @@ std::string surface_vtu(const Scene& scene, const Result& result) {
     add(point, 0);
   add(result.surface.front(), 2 * numbers::PI); // which closes the line
   const auto name = [&scene](const std::string& field, Quantity quantity) {
-    return field + scene.units.in_brackets(quantity);
+    return field + scene.units.as_suffix(quantity);
   };
   return line_vtu(radius, {{name("angle", Quantity::angle), angle},
                            {name("displacement", Quantity::length), displacement},
@@ -82,7 +82,7 @@ std::string road_vtu(const Scene& scene) {
     radius.push_back(std::hypot(x, y) * scene.units.length);
     angles.push_back(lowest_point + std::atan2(x, -y));
   }
-  return line_vtu(radius, {{"angle" + scene.units.in_brackets(Quantity::angle), angles}});
+  return line_vtu(radius, {{"angle" + scene.units.as_suffix(Quantity::angle), angles}});
 }
 
 } // namespace rollwave

@@ -4,11 +4,13 @@
 #include "rollwave/scene/units.h"
 
 #include <deal.II/base/data_out_base.h>
+#include <deal.II/base/polynomial.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/reference_cell.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -26,26 +28,70 @@ using Patch = DataOutBase::Patch<2>;
 /// The names of scalars and of components of vectors.
 std::vector<std::string> field_names(const Solution& solution) {
   const Units& units = solution.scene.units;
-  const std::string length = units.in_brackets(Quantity::length);
+  const std::string length = units.as_suffix(Quantity::length);
   std::vector<std::string> names = {"displacement" + length,
-                                    "radial_stress" + units.in_brackets(Quantity::pressure),
+                                    "radial_stress" + units.as_suffix(Quantity::pressure),
                                     "radius" + length,
-                                    "angle" + units.in_brackets(Quantity::angle),
+                                    "angle" + units.as_suffix(Quantity::angle),
                                     "x",
                                     "y"};
   if (solution.certificate)
-    names.push_back("certified_error" + units.in_brackets(Quantity::energy_norm));
+    names.push_back("certified_error" + units.as_suffix(Quantity::energy_norm));
   return names;
+}
+
+/// The k-th of the points along a side of a cell; r runs fastest.
+unsigned int point_on_side(unsigned int degree, unsigned int side, unsigned int k) {
+  const bool is_radial = side >= 2;
+  const unsigned int across = side % 2 == 0 ? 0 : degree;
+  return is_radial ? k + (degree + 1) * across : across + (degree + 1) * k;
+}
+
+/// Moves points of a side that is half of a coarser cell's side onto that one, so that there is no
+/// crack: onto the polynomial through its points at their deformed places, or, for cells of four
+/// nodes, onto the straight lines between these.
+/// @param values of the coarser cells, at the points of a patch
+void join_to_coarser_cells(const DoFHandler<2>::active_cell_iterator& cell, FEValues<2>& values,
+                           const FieldVector& displacement, double length, bool is_curved,
+                           Patch& patch) {
+  const unsigned int p = patch.n_subdivisions, x = patch.data.n_rows() - 2;
+  const auto basis = Polynomials::LagrangeEquidistant::generate_complete_basis(p);
+  const auto share = [&basis, p, is_curved](unsigned int m, double t) {
+    return is_curved ? basis[m].value(t) : std::max(0., 1 - std::abs(p * t - m));
+  };
+  std::vector<double> u(values.n_quadrature_points);
+  for (const unsigned int side : cell->face_indices()) {
+    if (cell->at_boundary(side) || !cell->neighbor_is_coarser(side))
+      continue;
+    const auto [coarse_side, half] = cell->neighbor_of_coarser_neighbor(side);
+    values.reinit(cell->neighbor(side));
+    values.get_function_values(displacement, u);
+    for (unsigned int k = 0; k <= p; ++k) {
+      const double t = (half + 1. * k / p) / 2;
+      Tensor<1, 2> place;
+      for (unsigned int m = 0; m <= p; ++m) {
+        const unsigned int q = point_on_side(p, coarse_side, m);
+        const double r = values.quadrature_point(q)[0], z = values.quadrature_point(q)[1];
+        const double scaled = share(m, t) * (r + u[q]) * length;
+        place[0] += scaled * std::cos(z);
+        place[1] += scaled * std::sin(z);
+      }
+      for (unsigned int d = 0; d < 2; ++d)
+        patch.data(x + d, point_on_side(p, side, k)) = place[d];
+    }
+  }
 }
 
 /// A patch for each cell of this process. Its points are equidistant in (r, z), as VTK's Lagrange
 /// cells have them, and lie at their deformed places. Their fields, then their places, are rows.
-std::vector<Patch> deformed_cells(const Solution& solution) {
+std::vector<Patch> deformed_cells(const Solution& solution, bool is_curved) {
   const RingSpace& space = solution.space();
   const auto& element = space.dof_handler().get_fe();
   const QIterated<2> points(QTrapezoid<1>(), element.degree); // r running fastest, as in a patch
   FEValues<2> values(space.mapping(), element, points,
                      update_quadrature_points | update_values | update_gradients);
+  FEValues<2> values_of_coarser(space.mapping(), element, points,
+                                update_quadrature_points | update_values);
   std::vector<double> u(points.size());
   std::vector<Tensor<1, 2>> gradients(points.size());
   const Units& units = solution.scene.units;
@@ -82,6 +128,7 @@ std::vector<Patch> deformed_cells(const Solution& solution) {
         add(solution.certificate->cell_bounds[cell->active_cell_index()] * energy_norm);
       add_vector((r + u[q]) * length);
     }
+    join_to_coarser_cells(cell, values_of_coarser, solution.displacement, length, is_curved, patch);
     patches.push_back(std::move(patch));
   }
   return patches;
@@ -97,9 +144,10 @@ DataOutBase::VtkFlags vtk_flags(const Solution& solution, CellKind cells) {
 
 /// The cells of this process as one piece of the file; empty without cells.
 std::string piece(const Solution& solution, const DataOutBase::VtkFlags& flags) {
-  const std::string length = solution.scene.units.in_brackets(Quantity::length);
+  const std::string length = solution.scene.units.as_suffix(Quantity::length);
   std::ostringstream out;
-  if (const std::vector<Patch> patches = deformed_cells(solution); !patches.empty())
+  const auto patches = deformed_cells(solution, flags.write_higher_order_cells);
+  if (!patches.empty())
     DataOutBase::write_vtu_main(patches, field_names(solution),
                                 {{4, 5, "displacement_vector" + length, // x and y
                                   DataComponentInterpretation::component_is_part_of_vector}},
@@ -116,7 +164,7 @@ void write_field_data(std::ostream& out, const Solution& solution) {
        {std::tuple("omega", solution.scene.angular_velocity, Quantity::angular_velocity),
         {"c", solution.scene.road.distance, Quantity::length},
         {"F", solution.result.contact.loads.total, Quantity::force}})
-    out << "<DataArray type=\"Float64\" Name=\"" << name << units.in_brackets(quantity)
+    out << "<DataArray type=\"Float64\" Name=\"" << name << units.as_suffix(quantity)
         << "\" NumberOfTuples=\"1\" format=\"ascii\">" << value * units.of(quantity)
         << "</DataArray>\n";
   out << "</FieldData>\n";

@@ -31,8 +31,8 @@ std::vector<ContactRow> tabulate_contact(const ContactBoundary& boundary,
                        pressure = problem.pressures(state.force);
   std::vector<ContactRow> rows;
   for (unsigned int i = 0; i < problem.size(); ++i)
-    rows.push_back({boundary.contact_nodes()[i].angle, state.displacement(i), problem.phi(i),
-                    gap(i), pressure(i), problem.weight(i)});
+    rows.push_back({boundary.contact_nodes()[i].angle, problem.road.arc_length(problem.x[i]),
+                    state.displacement(i), problem.phi(i), gap(i), pressure(i), problem.weight(i)});
   return rows;
 }
 

@@ -143,8 +143,8 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
     solution.displacement = expand(system, load, solution.contact.state.kept, statistics);
   }
   const RunStatistics::Phase phase(statistics, "measurement");
-  solution.resultants = measure_contact(solution.scene, solution.boundary.contact_nodes(),
-                                        solution.problem, solution.contact);
+  solution.resultants = measure_contact(solution.scene, solution.problem, solution.contact,
+                                        solution.boundary.space().dof_handler().get_fe().degree);
   if (const auto& given = solution.scene.load; given && scene.nip) {
     const double load = solution.resultants.loads.of(given->kind);
     if (load > 0)

@@ -1,5 +1,9 @@
 #include "rollwave/scene/units.h"
 
+#include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
+
+#include <cctype>
 #include <cmath>
 
 namespace rollwave {
@@ -53,6 +57,19 @@ std::string Units::after(Quantity quantity) const {
 std::string Units::in_brackets(Quantity quantity) const {
   const std::string name = after(quantity);
   return name.empty() ? "" : " [" + name.substr(1) + ']';
+}
+
+std::string Units::as_suffix(Quantity quantity) const {
+  std::string name = after(quantity);
+  if (boost::algorithm::ends_with(name, ")^(1/2)"))
+    name = " root" + name.substr(0, name.size() - std::string("^(1/2)").size());
+  std::string suffix;
+  for (const char c : boost::algorithm::replace_all_copy(name, "/", " per "))
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      suffix += c;
+    else if ((c == ' ' || c == '(') && (suffix.empty() || suffix.back() != '_'))
+      suffix += '_';
+  return suffix;
 }
 
 } // namespace rollwave

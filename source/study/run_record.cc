@@ -64,15 +64,21 @@ OwnFiles wanted_files(const Parameters& study) {
 }
 
 std::string to_json(const RunRecord& record, const std::string& digest) {
-  std::vector<double> angles, pressures;
-  for (const auto& [angle, pressure] : record.pressure) {
-    angles.push_back(angle);
-    pressures.push_back(pressure);
+  std::vector<double> angles, road_lengths, pressures;
+  for (const ProfilePoint& point : record.profile) {
+    angles.push_back(point.angle);
+    road_lengths.push_back(point.road_length);
+    pressures.push_back(point.pressure);
   }
-  Json json = {{"program", version_text()},     {"run", digest},
-               {"values", record.values},       {"reference", record.reference},
-               {"shortfall", record.failure},   {"remarks", record.remarks},
-               {"shared", record.shared},       {"profile_angles", angles},
+  Json json = {{"program", version_text()},
+               {"run", digest},
+               {"values", record.values},
+               {"reference", record.reference},
+               {"shortfall", record.failure},
+               {"remarks", record.remarks},
+               {"shared", record.shared},
+               {"profile_angles", angles},
+               {"profile_road_lengths", road_lengths},
                {"profile_pressures", pressures}};
   if (!record.files.kinds.empty())
     json["files"] = files_json(record);
@@ -88,9 +94,10 @@ std::optional<RunRecord> from_json(const std::string& text, const std::string& d
     all.at("shortfall").get_to(record.failure);
     all.at("remarks").get_to(record.remarks);
     all.at("shared").get_to(record.shared);
-    const Json &angles = all.at("profile_angles"), &pressures = all.at("profile_pressures");
+    const Json &angles = all.at("profile_angles"), &road_lengths = all.at("profile_road_lengths"),
+               &pressures = all.at("profile_pressures");
     for (std::size_t i = 0; i < angles.size(); ++i)
-      record.pressure.emplace_back(angles.at(i), pressures.at(i));
+      record.profile.push_back({angles.at(i), road_lengths.at(i), pressures.at(i)});
     if (all.contains("files"))
       read_files(all["files"], record);
     const bool is_of_run = all.at("run") == digest && record.is_solved();
@@ -127,21 +134,22 @@ std::map<std::string, double> values_of(const Result& result, const Units& units
   return values;
 }
 
-std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units) {
+std::vector<ProfilePoint> profile_of(const Result& result, const Units& units) {
   const auto& rows = result.contact_rows;
   const auto presses = [](const ContactRow& row) { return row.pressure > 0; };
   const auto first = std::find_if(rows.begin(), rows.end(), presses);
   const auto last = std::find_if(rows.rbegin(), rows.rend(), presses).base();
-  std::vector<std::pair<double, double>> pressure;
+  std::vector<ProfilePoint> profile;
   if (first == rows.end())
-    return pressure;
+    return profile;
   const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, first - rows.begin() - 1),
                        end = std::min<std::ptrdiff_t>(rows.size(), last - rows.begin() + 1),
                        step = 1 + (end - begin) / 100;
   for (std::ptrdiff_t i = begin; i < end; ++i)
     if ((i - begin) % step == 0 || i + 1 == end)
-      pressure.emplace_back(rows[i].angle, rows[i].pressure * units.of(Quantity::pressure));
-  return pressure;
+      profile.push_back({rows[i].angle, rows[i].road_length * units.of(Quantity::length),
+                         rows[i].pressure * units.of(Quantity::pressure)});
+  return profile;
 }
 
 } // namespace rollwave

@@ -51,13 +51,15 @@ std::string study_csv(const Study& study) {
 }
 
 std::string profiles_csv(const Study& study) {
-  std::string text = "run,z" + study.units().in_brackets(Quantity::angle) + ",pressure" +
-                     study.units().in_brackets(Quantity::pressure) + '\n';
+  const Units units = study.units();
+  std::string text = "run,z" + units.in_brackets(Quantity::angle) + ",road_length" +
+                     units.in_brackets(Quantity::length) + ",pressure" +
+                     units.in_brackets(Quantity::pressure) + '\n';
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (study.runs[run])
-      for (const auto& [z, pressure] : study.runs[run]->pressure)
-        text +=
-            study.plans[run].digest + ',' + shortest_text(z) + ',' + shortest_text(pressure) + '\n';
+      for (const ProfilePoint& point : study.runs[run]->profile)
+        text += study.plans[run].digest + ',' + shortest_text(point.angle) + ',' +
+                shortest_text(point.road_length) + ',' + shortest_text(point.pressure) + '\n';
   return text;
 }
 

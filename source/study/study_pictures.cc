@@ -4,7 +4,6 @@
 #include "rollwave/base/text.h"
 #include "rollwave/plot/plots.h"
 #include "rollwave/run/quantities.h"
-#include "rollwave/scene/road.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
 
@@ -171,12 +170,9 @@ bool is_empty(const Panel& panel) {
 
 /// The pressure of a run over the length along the road, in the user's units.
 std::vector<CurvePoint> profile_of(const Study& study, unsigned int run) {
-  const RunOptions& parameters = study.plans[run].parameters;
-  const Road road = {parameters.cylinder.outer_radius, *study.value(run, "scene.road_distance"),
-                     parameters.road.curvature};
   std::vector<CurvePoint> points;
-  for (const auto& [z, pressure] : study.runs[run]->pressure)
-    points.push_back({road.arc_length(from_lowest_point(z)), pressure});
+  for (const ProfilePoint& point : study.runs[run]->profile)
+    points.push_back({point.road_length, point.pressure});
   return points;
 }
 
@@ -193,7 +189,7 @@ Panel profile_panel(const Study& study, std::string& title) {
   for (unsigned int i = 0; i < choices.size(); ++i)
     for (unsigned int k = 0; k < values.size(); ++k) {
       const unsigned int run = choices[i] * n_values + values[k];
-      if (!study.runs[run] || study.runs[run]->pressure.empty())
+      if (!study.runs[run] || study.runs[run]->profile.empty())
         continue;
       panel.curves.push_back(
           {label(study.plans[run], study.plans[run].varied), profile_of(study, run)});

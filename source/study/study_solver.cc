@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <utility>
 
 namespace rollwave {
 
@@ -177,6 +178,8 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
         result.errors->exact_distance = known_or_computed(
             exact_distances, {cylinder, road, material, 0}, // the same on all meshes
             [&] { return find_exact_distance(scene, communicator); });
+      for (Note& note : contradicted_guarantees(result, *exact, scene.units))
+        result.notes.push_back(std::move(note));
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
@@ -184,7 +187,7 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
   if (!run.files.kinds.empty())
     write_files(plan, run);
   run.values = values_of(result, scene.units);
-  run.pressure = pressure_of(result, scene.units);
+  run.profile = profile_of(result, scene.units);
   run.failure = shortfall_text(result);
 }
 

@@ -24,10 +24,10 @@ std::optional<ExactSolution> find_exact_solution(const Scene& scene, std::string
   if (narrow <= 0)
     return give_up("Road/Contact zone leaves out the lowest point");
   try {
-    const ExactSolution exact = solve_exactly(
-        {scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road.distance,
-         scene.force.uniform.value_or(0), narrow, scene.road.curvature},
-        communicator);
+    const ExactSolution exact =
+        solve_exactly({scene.inner_radius, scene.outer_radius, scene.angular_velocity, scene.road,
+                       scene.force.uniform.value_or(0), narrow},
+                      communicator);
     if (exact.end_exponent < 0 && std::abs(left - right) > 1e-12)
       return give_up("Road/Contact zone cuts the contact short on one side, or unevenly");
     return exact;

@@ -1,5 +1,6 @@
 #include "rollwave/verify/true_errors.h"
 
+#include "rollwave/base/text.h"
 #include "rollwave/exact/exact_field.h"
 #include "rollwave/mesh/surface_trace.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace rollwave {
@@ -171,6 +173,12 @@ double pressure_distance_squared(const ExactSolution& exact, const Result& resul
   return squared;
 }
 
+/// The error in the energy norm that cancellation hides.
+double hidden_error(const ExactSolution& exact) {
+  const bool is_cut = exact.end_exponent < 0;
+  return (is_cut ? 3e-5 : 5e-6) * std::sqrt(exact.norm_squared);
+}
+
 /// TrueErrors::expected_order, by the exponent of the pressure at the ends.
 double expected_order(double degree, bool is_uniform, double end_exponent) {
   const bool is_cut = end_exponent<0, is_critical = end_exponent> - 0.4; // -1/2 or -1/3 if cut
@@ -187,8 +195,7 @@ TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& ex
   const RingSpace& space = solution.space();
   const FieldVector& field = solution.displacement;
   const Result& result = solution.result;
-  const bool is_cut = exact.end_exponent < 0;
-  const double floor = (is_cut ? 3e-5 : 5e-6) * std::sqrt(exact.norm_squared);
+  const double floor = hidden_error(exact);
   const double work = result.energy.norm_squared / 2 - result.energy.value; // (f, u_h)
 
   const SurfaceTrace trace(space, field);
@@ -224,6 +231,36 @@ TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& ex
       errors.effectivity = certified.energy_norm / errors.energy_norm;
   }
   return errors;
+}
+
+std::vector<Note> contradicted_guarantees(const Result& result, const ExactSolution& exact,
+                                          const Units& units) {
+  std::vector<Note> notes;
+  if (!result.certified)
+    return notes;
+  const auto check = [&](const char* words, double number, const Interval& guaranteed,
+                         double accuracy, Quantity quantity) {
+    if (guaranteed.lower - accuracy <= number && number <= guaranteed.upper + accuracy)
+      return;
+    const double unit = units.of(quantity);
+    notes.push_back(
+        {Note::Kind::shortfall, std::string("A GUARANTEE IS WRONG: ") + words + " IS " +
+                                    rounded(number * unit, 12) + ", THE GUARANTEE IS FROM " +
+                                    rounded(guaranteed.lower * unit, 12) + " TO " +
+                                    rounded(guaranteed.upper * unit, 12) + units.after(quantity)});
+  };
+  const CertifiedError& certified = *result.certified;
+  if (result.errors && result.errors->is_resolved)
+    check("THE TRUE ERROR IN THE ENERGY NORM", result.errors->energy_norm,
+          {0, certified.energy_norm}, hidden_error(exact), Quantity::energy_norm);
+  constexpr double safety = 10; // accuracies are estimates
+  check("THE EXACT ENERGY J", exact.energy, {certified.lower_bound, certified.upper_bound},
+        safety * exact.energy_accuracy * std::abs(exact.energy), Quantity::energy);
+  check("THE EXACT CONTACT FORCE", exact.loads.total, certified.loads.total,
+        safety * exact.force_accuracy * exact.loads.total, Quantity::force);
+  check("THE EXACT VERTICAL LOAD", exact.loads.vertical, certified.loads.vertical,
+        safety * exact.force_accuracy * exact.loads.total, Quantity::force);
+  return notes;
 }
 
 } // namespace rollwave

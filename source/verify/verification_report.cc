@@ -48,6 +48,9 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("computed", rounded(ours * unit, 12));
     table.add_value(exact_title, rounded(theirs * unit, 12));
     table.add_value("difference", rounded((ours - theirs) * unit, 3));
+    const auto estimate = uncertainty_of(name, result, units);
+    table.add_value("estimated",
+                    estimate && std::isfinite(*estimate) ? rounded(*estimate, 2) : "-");
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };

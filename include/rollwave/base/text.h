@@ -39,6 +39,14 @@ std::string rounded(double number, int digits);
 std::string rounded_up(double number, int digits);
 std::string rounded_down(double number, int digits);
 
+/// @p number without the digits that its @p uncertainty makes meaningless, such as 0.89 for 0.8937
+/// and 0.053.
+std::string rounded_by(double number, double uncertainty);
+
+/// The same with the uncertainty, rounded up to one digit, or two where the first is a 1:
+/// "0.89 +- 0.06", "0.894 +- 0.013".
+std::string with_uncertainty(double number, double uncertainty);
+
 /// The shortest text that is read back as @p number.
 std::string shortest_text(double number);
 

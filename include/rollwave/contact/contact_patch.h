@@ -2,20 +2,28 @@
 
 #include "rollwave/contact/contact_problem.h"
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace rollwave {
 
-/// One stretch of the surface in contact.
+/// One stretch of the surface in contact. Beside a number stands an estimate of its error.
 struct ContactPatch {
   double begin; ///< an angle
+  double begin_uncertainty;
   double end;
+  double end_uncertainty;
   double force;    ///< b int lambda dz over the stretch
   double centroid; ///< int lambda z dz / int lambda dz, an angle
   double peak_pressure;
-  double length = 0; ///< of the road under it
+  double length; ///< of the road under it
+  double length_uncertainty;
+
+  /// Half of the length in contact, an angle.
+  double half_width() const;
+  double half_width_uncertainty() const;
 };
 
 /// Resultants of the contact. Forces are per unit length of the axle and unit shear
@@ -28,31 +36,50 @@ struct ContactResultants {
   Loads loads;
   std::optional<Loads> stiffness = {}; ///< -d/dc of the three, see contact_stiffness()
   double peak_pressure;                ///< max lambda_i
+
+  /// nullopt where the zone cuts the contact short: the pressure is unbounded there.
+  std::optional<double> peak_pressure_uncertainty;
+  double relative_stiffness_uncertainty; ///< of each of the three
   unsigned int active_nodes;
 
-  /// Half of the length in contact, an angle.
-  double half_width() const;
+  /// The sum of a number of the patches.
+  double sum(const std::function<double(const ContactPatch&)>& number) const;
+  double half_width() const { return sum(&ContactPatch::half_width); }
 
   /// The nip: the length of road under all patches.
-  double length() const;
+  double length() const { return sum(&ContactPatch::length); }
 };
 
 /**
  * Resultants by the rule [.,.]_h of SurfaceNode and the ends of each patch.
  *
  * Outside of an end, at the distance d, the gap grows like d^(1+s), and inside the pressure like
- * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) is linear in
- * z, and its root is the end: a straight line through the second and the fourth node outside (the
- * first carries the error of the end cell). If there are fewer nodes, the first two are used. If
- * that fails, the pressure inside is. Where the zone cuts the contact short, the end is the zone's;
- * no end lies beyond the zone or the tangent of a drum.
+ * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) and
+ * pressure^(1/(1-s)) are linear in z. The roots of the lines through the first two free nodes and
+ * through the last two nodes in contact are two guesses of the end, so that no other node matters.
+ * Each is kept within the edge between the last node in contact and the first free one and half an
+ * edge before it: a node takes part in contact for its surroundings, and the exact end may lie
+ * before it. Where a law does not hold, a quarter of the edge is the guess, which is the mean of
+ * many scenes. The end is the middle of both guesses. Its uncertainty is half of their difference
+ * and a quarter of the edge, or half of it where a law does not hold; twice as much in cells that
+ * are four times as high as wide, and so on, since these see little of what is new at the end.
+ * doc/verification.md shows how often that is enough.
+ *
+ * Where the zone cuts the contact short, the end is the zone's; no end lies beyond the zone or the
+ * tangent of a drum.
  * With e = 1 - omega b > 0 small, s = 1/3 is the law at distances greater than (2 e)^(3/2) and is
  * used when the nodes are further apart than that.
+ *
+ * Near its largest value the pressure is smooth, so that a nodal pressure differs from the
+ * polynomial through those of its neighbours, half a degree on each side, as it does from the exact
+ * pressure. Errors of the ends act on it by their relative square. The error of the stiffness is in
+ * proportion to that of the length; where the zone cuts the contact short, an edge takes the place
+ * of the uncertainty of the end.
  *
  * Two patches are apart where a node between them is not in contact and its gap is more than
  * ContactSolution::gap_accuracy and round-off.
  */
-ContactResultants measure_contact(const Scene& scene, const std::vector<SurfaceNode>& nodes,
-                                  const ContactProblem& problem, const ContactSolution& solution);
+ContactResultants measure_contact(const Scene& scene, const ContactProblem& problem,
+                                  const ContactSolution& solution, unsigned int degree);
 
 } // namespace rollwave

@@ -50,9 +50,10 @@ struct ContactOptions {
  *     u_i <= phi_i,   N_i >= 0,   N_i (phi_i - u_i) = 0,   pressure lambda_i = N_i / weight_i.
  */
 struct ContactProblem {
-  dealii::Vector<double> phi;    ///< phi_i, a length
-  dealii::Vector<double> weight; ///< the nodes' areas, see SurfaceNode
-  std::vector<double> x;         ///< the nodes' angles from the lowest point
+  dealii::Vector<double> phi;     ///< phi_i, a length
+  dealii::Vector<double> weight;  ///< the nodes' areas, see SurfaceNode
+  std::vector<double> x;          ///< the nodes' angles from the lowest point
+  std::vector<double> cell_ratio; ///< see SurfaceNode
   Road road;
   double unit = 1; ///< the scene's unit of displacement over pressure, in the user's units
 

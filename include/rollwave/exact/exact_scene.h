@@ -7,19 +7,16 @@
 
 namespace rollwave {
 
-/// The scenes that have a semi-analytic answer: a road of constant curvature, a constant force
+/// The scenes that have a semi-analytic answer: a road like all of `Road`, a constant force
 /// density and a zone of possible contact |z - 3 pi/2| <= zone_half_width, which may cut the
 /// contact short.
 struct ExactScene {
   double inner_radius;
   double outer_radius;
   double angular_velocity;
-  double road_distance;
+  Road road;
   double force_density;
   double zone_half_width = dealii::numbers::PI_2;
-  double road_curvature = 0;
-
-  Road road() const { return {outer_radius, road_distance, road_curvature}; }
 
   /// u_f(r), the displacement without contact, a length.
   double contact_free_displacement(double r) const {

@@ -28,6 +28,8 @@ struct SurfaceNode {
   /// integral of r p q over r = b by Gauss-Lobatto's rule with degree + 1 points, that is the
   /// trapezoidal rule for degree 1 and Simpson's for degree 2. Nodal force = weight * pressure.
   double weight;
+
+  double cell_ratio = 0; ///< height over width, the larger one of the cells on both sides
 };
 
 /// An edge of a cell on r = b with the nodes on it, at Gauss-Lobatto points from begin to end.

@@ -80,6 +80,7 @@ struct TrueErrors {
 /// The numbers of one contact node; gap = phi - u.
 struct ContactRow {
   double angle;
+  double road_length; ///< along the road from its lowest point, see Road::arc_length()
   double displacement;
   double phi;
   double gap;

@@ -72,6 +72,10 @@ struct Units {
   /// The name after a number, " m", and after the name of a quantity, " [m]".
   std::string after(Quantity quantity) const;
   std::string in_brackets(Quantity quantity) const;
+
+  /// The name in that of a field, "_N_per_mm2": letters, digits and "_", since VisIt refuses
+  /// others.
+  std::string as_suffix(Quantity quantity) const;
 };
 
 } // namespace rollwave

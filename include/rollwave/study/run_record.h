@@ -12,7 +12,6 @@
 #include <set>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace rollwave {
@@ -34,6 +33,16 @@ struct OwnFiles {
 /// `Study/Files of each run` of a study.
 OwnFiles wanted_files(const Parameters& study);
 
+/// A point of the contact, in the user's units.
+struct ProfilePoint {
+  double angle;
+  double road_length; ///< see ContactRow
+  double pressure;
+
+  auto members() const { return std::tie(angle, road_length, pressure); }
+  bool operator==(const ProfilePoint& other) const { return members() == other.members(); }
+};
+
 /// The outcome of one run of a study.
 struct RunRecord {
   /// The known result_quantities() by their names, in the user's units; none where it was not
@@ -43,7 +52,7 @@ struct RunRecord {
   std::string failure;   ///< why it was not solved or did not reach its target; else empty
   std::vector<std::string> remarks;
   std::string shared; ///< what it reuses from the run before; its seconds leave that out
-  std::vector<std::pair<double, double>> pressure; ///< angles and pressures along the contact
+  std::vector<ProfilePoint> profile; ///< the pressure along the contact
   OwnFiles files;
   std::map<std::string, std::uintmax_t> sizes; ///< of the files in bytes, by their names
 
@@ -74,6 +83,6 @@ std::map<std::string, double> values_of(const Result& result, const Units& units
 
 /// The pressure from the node before contact to that after it, at about a hundred nodes at most,
 /// in the user's units.
-std::vector<std::pair<double, double>> pressure_of(const Result& result, const Units& units);
+std::vector<ProfilePoint> profile_of(const Result& result, const Units& units);
 
 } // namespace rollwave

@@ -12,8 +12,8 @@ namespace rollwave {
 /// (RunPlan::digest).
 std::string study_csv(const Study& study);
 
-/// The text of study-profiles.csv: digest of the run, angle and pressure at each point of the
-/// profiles.
+/// The text of study-profiles.csv: digest of the run, angle, length along the road and pressure at
+/// each point of the profiles.
 std::string profiles_csv(const Study& study);
 
 } // namespace rollwave

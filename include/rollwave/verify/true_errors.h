@@ -1,7 +1,10 @@
 #pragma once
 
 #include "rollwave/exact/exact_solution.h"
+#include "rollwave/run/note.h"
 #include "rollwave/run/simulation.h"
+
+#include <vector>
 
 namespace rollwave {
 
@@ -25,5 +28,11 @@ namespace rollwave {
  * @p exact must be that of the scene that @p solution solves.
  */
 TrueErrors measure_true_errors(const Solution& solution, const ExactSolution& exact);
+
+/// A shortfall for each guarantee of a result that the exact solution contradicts by more than its
+/// own accuracy: the bound of the error in the energy norm, where the result has its true errors,
+/// and the intervals of J, F and the vertical load. None is expected.
+std::vector<Note> contradicted_guarantees(const Result& result, const ExactSolution& exact,
+                                          const Units& units);
 
 } // namespace rollwave
