@@ -86,8 +86,8 @@ TEST(Uzawa, LargestComplianceIsThatOfTheRotationallySymmetricMode) {
 // Plain steps would be 9, 16 and 30.
 TEST(ActiveSet, NeedsFewStepsOnStretchedCells) {
   for (const char* cells : {"250", "500", "1000"}) {
-    Prepared scene(parameters_of({"Mesh/Degree=1", "Mesh/Radial cells=2",
-                                  std::string("Mesh/Angular cells=") + cells}));
+    Prepared scene(parameters_of(
+        {"Mesh/Degree=1", "Mesh/Radial cells=2", std::string("Mesh/Angular cells=") + cells}));
     const ContactSolution solution =
         active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
     EXPECT_LE(solution.history.size(), 18u) << cells;

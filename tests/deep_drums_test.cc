@@ -75,7 +75,7 @@ TEST(DeepDrums, HaveAnUpperBoundOfTheEnergy) {
 TEST(AdmissibleRoad, EnclosesTheRoad) {
   for (const double curvature : {-0.9, 0., 0.3, 5., 50., 1e4}) {
     const Road road = {1, 0.8, curvature};
-    const AdmissibleRoad admissible(road, 0.1);
+    const AdmissibleRoad admissible(road, make_obstacle(road), 0.1);
     const double last = std::min(1.5, 3 * road.tangent_angle());
     for (int i = -1000; i <= 1000; ++i) {
       const double z = lowest_point + last * i / 1000,
@@ -93,7 +93,7 @@ TEST(AdmissibleRoad, IsResolvedWhereItSaysSo) {
   for (const double curvature : {-1., -0.9, 0., 0.3, 5., 50.}) {
     const Road road = {1, 0.8, curvature};
     const double last = std::min(1.57, road.tangent_angle());
-    const AdmissibleRoad admissible(road, 1e-3 * last);
+    const AdmissibleRoad admissible(road, make_obstacle(road), 1e-3 * last);
     const auto integral = [&](const dealii::Quadrature<1>& rule, double begin, double end) {
       double sum = 0;
       for (unsigned int q = 0; q < rule.size(); ++q) {

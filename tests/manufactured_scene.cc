@@ -62,7 +62,7 @@ ManufacturedScene manufacture_scene(double inner_radius, double outer_radius,
 
   const double force = outer_radius * pressure.fourier_integral(0).real();
   ManufacturedScene made = {{},
-                            {{inner_radius, outer_radius, angular_velocity, 0, 0},
+                            {{inner_radius, outer_radius, angular_velocity, {}, 0},
                              w,
                              {force, 0, 0},
                              norm_squared / 2,

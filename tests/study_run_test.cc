@@ -42,7 +42,10 @@ RunRecord some_record() {
   record.failure = "no \"way\", at\nall";
   record.remarks = {"\"rough\", or so", "ζ", "\xff"};
   record.profile = {{4.5, -0.2, 0}, {4.6, -0.1, 1. / 7}};
-  record.files = {{OutputFile::parameters, OutputFile::surface}, CellKind::linear, {"m", "s", "N"}};
+  record.files = {{OutputFile::parameters, OutputFile::surface},
+                  CellKind::linear,
+                  PictureFormat::svg,
+                  {"m", "s", "N"}};
   record.sizes = {{"surface.vtu", 3000000000}, {"road.vtu", 1}};
   return record;
 }

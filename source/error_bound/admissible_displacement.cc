@@ -12,13 +12,14 @@ namespace rollwave {
 
 using namespace dealii;
 
-AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Road& road) {
+AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Scene& scene) {
+  const Road& road = scene.road;
   double reach = 0;
   for (const SurfaceEdge& edge : boundary.space().surface_edges())
     for (const double x : {-road.tangent_angle(), road.tangent_angle()})
       if (from_lowest_point(edge.begin) <= x && x <= from_lowest_point(edge.end))
         reach = std::max(reach, edge.end - edge.begin);
-  return {road, reach};
+  return {road, scene.phi, reach};
 }
 
 FieldVector project_contact_nodes(const ContactBoundary& boundary, const AdmissibleRoad& road,

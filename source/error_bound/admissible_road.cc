@@ -20,8 +20,8 @@ double ellipse_through(const std::complex<double>& point) {
 
 } // namespace
 
-AdmissibleRoad::AdmissibleRoad(const Road& road, double reach)
-    : road(road), tangent(road.tangent_angle()),
+AdmissibleRoad::AdmissibleRoad(const Road& road, const Obstacle& phi, double reach)
+    : road(road), phi(phi), tangent(road.tangent_angle()),
       last_contact(road.is_convex() ? tangent - std::min(reach, tangent) / 8 : PI),
       value_at_last(road.displacement(last_contact)), slope_at_last(road.slope(last_contact)),
       value_at_tangent(std::sqrt(road.distance * (road.distance + 2 / road.curvature)) -
@@ -32,7 +32,7 @@ AdmissibleRoad::ValueAndSlope AdmissibleRoad::limit(double z) const {
   const double x = from_lowest_point(z);
   const bool may_touch = !road.is_convex() || std::abs(x) <= last_contact;
   if (may_touch)
-    return {road.displacement(x), road.slope(x)};
+    return {phi(z), phi.slope(z)};
   const double on_line = value_at_last + slope_at_last * (std::abs(x) - last_contact);
   if (on_line < value_beyond || std::abs(x) < tangent)
     return {on_line, std::copysign(slope_at_last, x)};
@@ -42,7 +42,7 @@ AdmissibleRoad::ValueAndSlope AdmissibleRoad::limit(double z) const {
 double AdmissibleRoad::upper(double z) const {
   const double x = from_lowest_point(z), size = std::abs(x);
   if (!road.is_convex() || size <= last_contact || size >= tangent)
-    return road.displacement(x);
+    return phi(z);
   const double share = (size - last_contact) / (tangent - last_contact);
   return (1 - share) * value_at_last + share * value_at_tangent;
 }

@@ -101,7 +101,7 @@ Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactSolution& contact, const FieldVector& field,
                     const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "certificate");
-  const AdmissibleRoad road = admissible_road(boundary, scene.road);
+  const AdmissibleRoad road = admissible_road(boundary, scene);
   const FieldVector displacement = project_contact_nodes(boundary, road, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);

@@ -72,7 +72,7 @@ private:
 };
 
 /// The limit for displacements on a mesh, with the longest edge at a tangent as its reach.
-AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Road& road);
+AdmissibleRoad admissible_road(const ContactBoundary& boundary, const Scene& scene);
 
 /// @p field with its contact nodes moved to phi_v where they are @p active or beyond it; the
 /// constraints hold after it.

@@ -21,8 +21,9 @@ namespace rollwave {
  */
 class AdmissibleRoad {
 public:
+  /// @param phi of the road
   /// @param reach D is an eighth of this angle, or of x_t if that is less
-  AdmissibleRoad(const Road& road, double reach);
+  AdmissibleRoad(const Road& road, const Obstacle& phi, double reach);
 
   struct ValueAndSlope {
     double value; ///< a length
@@ -49,6 +50,7 @@ public:
 private:
   // Without a tangent x_t and x_c are pi, and the other numbers are not used.
   Road road;
+  Obstacle phi;
   double tangent;          ///< x_t
   double last_contact;     ///< x_c
   double value_at_last;    ///< phi(x_c)
