@@ -65,12 +65,9 @@ dealii::TableHandler make_table(const Study& study,
                            : "-");
     for (const ResultQuantity& quantity : shown) {
       const auto value = study.value(run, quantity.name);
-      const std::string uncertainty = quantity.name + "_uncertainty";
       add((quantity.symbol.empty() ? quantity.words : quantity.symbol) +
               units.in_brackets(quantity.quantity),
-          value ? quantity.text(*value, study.has(uncertainty) ? study.value(run, uncertainty)
-                                                               : std::nullopt)
-                : "");
+          value ? quantity.text(*value, study.value(run, quantity.name + "_uncertainty")) : "");
     }
     add("outcome", outcome_of(*study.runs[run]));
   }
