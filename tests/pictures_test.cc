@@ -369,7 +369,7 @@ TEST_F(Pictures, TitlesHaveNumbersOfFiveDigits) {
       "Cylinder/Inner radius=10/3", "Cylinder/Outer radius=20/3", "Road/Curvature=1/30",
       "Material/Shear modulus=4.5/3", "Cylinder/Angular velocity=1/30"};
   const auto expect_short = [&](const std::string& picture) {
-    static const std::regex digits("[0-9.]{8,}");
+    static const std::regex digits("[0-9.]{10,}");
     const std::string script = read(picture);
     const std::string plots = script.substr(script.find("\nset multiplot"));
     const std::string title = plots.substr(0, plots.find('\n', 1));

@@ -63,14 +63,11 @@ std::string title_of(const Scene& scene, const Parameters& parameters, const Res
                                   : printable(force, 60));
   }
   const MaterialOptions& material = units.material;
-  std::string title = in_single_quotes(problem);
   if (material.is_given())
-    title += ".\"\\n\"." + in_single_quotes("mu = " + rounded(material.shear_modulus, digits) +
-                                            units.after(Quantity::pressure) +
-                                            ", rho = " + rounded(material.density, digits) +
-                                            units.after(Quantity::density) +
-                                            ", width = " + rounded(material.width, digits) +
-                                            units.after(Quantity::length));
+    problem += "\nmu = " + rounded(material.shear_modulus, digits) +
+               units.after(Quantity::pressure) + ", rho = " + rounded(material.density, digits) +
+               units.after(Quantity::density) + ", width = " + rounded(material.width, digits) +
+               units.after(Quantity::length);
   std::string results;
   for (const auto& [words, name] : {std::pair("vertical load", "contact.vertical_load"),
                                     {"nip", "contact.length"},
@@ -81,9 +78,8 @@ std::string title_of(const Scene& scene, const Parameters& parameters, const Res
       results += std::string(words) + " = " + rounded(*value, digits) +
                  units.after(quantity.quantity) + ", ";
   }
-  return title + ".\"\\n\"." +
-         in_single_quotes(results + 'Q' + std::to_string(result.mesh.degree) + ", " +
-                          (result.step_length ? "Uzawa" : "active set"));
+  return problem + '\n' + results + 'Q' + std::to_string(result.mesh.degree) + ", " +
+         (result.step_length ? "Uzawa" : "active set");
 }
 
 /// The data of the panels.
@@ -123,7 +119,7 @@ set parametric
 set samples 361
 set tics font ',12'
 set trange [0:2*pi]
-set size ratio -1 0.5,0.94
+set size ratio -1 0.5,0.91
 set origin 0,0
 set xrange [-half:half]
 set yrange [-half:half]
@@ -182,7 +178,7 @@ plot '$contact' using 1:3 with filledcurves y1=0 fillcolor rgb '#f3d9c4', \
 } // namespace
 
 Picture plot_scene(const Scene& scene, const Parameters& parameters, const Result& result) {
-  constexpr unsigned int width = 1100, height = 640;
+  constexpr unsigned int width = 1100, height = 690;
   // The frame of the zoom has 0.40 of the width and 0.25 of the height.
   const double ratio = (0.25 * height) / (0.40 * width), angle = shown_angle(scene, result),
                zoom = std::min(1., angle);
@@ -202,7 +198,8 @@ Picture plot_scene(const Scene& scene, const Parameters& parameters, const Resul
          << zoom << "\nheight = 2 * zoom * " << ratio << "\nunit = " << in_single_quotes(unit)
          << "\nends = '" << (result.contact.ends ? "ends of contact" : "")
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
-         << "\nset multiplot title " << title_of(scene, parameters, result) << " font ',13'\n"
+         << "\nset multiplot title "
+         << title_in_room(title_of(scene, parameters, result), width).text << '\n'
          << pictures;
   for (const ContactPatch& patch : result.contact.patches)
     for (const double z : {patch.begin, patch.end})

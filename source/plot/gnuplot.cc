@@ -41,22 +41,30 @@ std::string in_single_quotes(const std::string& text) {
   return '\'' + line + '\'';
 }
 
+namespace {
+
+constexpr double width_over_size = 0.76; // of a letter, as of wide fonts without serifs
+
+}
+
 unsigned int size_of_letters(double n_letters, double width, unsigned int largest) {
-  constexpr double width_over_size = 0.62; // of a letter, as of most fonts without serifs
   return std::clamp<double>(width / (width_over_size * n_letters), 1, largest);
 }
 
 Title title_in_room(const std::string& text, unsigned int width) {
   constexpr unsigned int size = 12;
-  const std::size_t most = width / (0.62 * size);
-  std::vector<std::string> lines(1);
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t comma = text.find(", ", begin),
-                      end = comma == std::string::npos ? text.size() : comma + 2;
-    if (!lines.back().empty() && lines.back().size() + end - begin > most)
-      lines.emplace_back();
-    lines.back() += text.substr(begin, end - begin);
-    begin = end;
+  const std::size_t most = width / (width_over_size * size);
+  std::vector<std::string> lines;
+  for (const std::string& paragraph : split(text, '\n')) {
+    lines.emplace_back();
+    for (std::size_t begin = 0; begin < paragraph.size();) {
+      const std::size_t comma = paragraph.find(", ", begin),
+                        end = comma == std::string::npos ? paragraph.size() : comma + 2;
+      if (!lines.back().empty() && lines.back().size() + end - begin > most)
+        lines.emplace_back();
+      lines.back() += paragraph.substr(begin, end - begin);
+      begin = end;
+    }
   }
   std::size_t longest = 1;
   std::string title;
@@ -64,7 +72,8 @@ Title title_in_room(const std::string& text, unsigned int width) {
     longest = std::max(longest, line.size());
     title += (title.empty() ? "" : ".\"\\n\".") + in_single_quotes(trimmed(line));
   }
-  return {title + " font '," + std::to_string(size_of_letters(longest, width, size)) + '\'',
+  return {(title.empty() ? "''" : title) + " font '," +
+              std::to_string(size_of_letters(longest, width, size)) + '\'',
           static_cast<unsigned int>(lines.size())};
 }
 

@@ -169,7 +169,7 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
   const unsigned int columns = is_single ? 1 : 2, rows = (panels.size() + columns - 1) / columns,
                      legend_rows =
                          has_legend ? (n_titles + legend_columns - 1) / legend_columns : 0,
-                     above = 30 + 16 * heading.n_lines, below_axes = 80 + 21 * legend_rows,
+                     above = 30 + 16 * heading.n_lines, below_axes = 85 + 24 * legend_rows,
                      height = (is_single ? 420 : 300 * rows) + above + below_axes;
   script << "set multiplot layout " << rows << ',' << columns << " title " << heading.text
          << " margins " << (is_single ? 110. / width : 0.11) << ",0.96," << 1. * below_axes / height

@@ -32,7 +32,7 @@ struct Title {
   unsigned int n_lines;
 };
 
-/// A title in lines that have room in @p width, broken after commas.
+/// A title in lines that have room in @p width: those of @p text, broken after commas.
 Title title_in_room(const std::string& text, unsigned int width);
 
 /// Writes for each picture NAME.gp, which draws NAME.svg, or NAME.png or NAME.pdf, when gnuplot
