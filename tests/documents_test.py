@@ -56,7 +56,7 @@ for page in (doc / 'theory.md', doc / 'architecture.md', doc / 'contributing.md'
         require((root / f'include/rollwave/{name}.h').exists(), f'{page.name}: {name} is not there')
 
 require(len(readme.read_text().splitlines()) <= 110, 'README.md has more than 110 lines')
-require(len((doc / 'theory.md').read_text().splitlines()) <= 380, 'theory.md is longer than 380 lines')
+require(len((doc / 'theory.md').read_text().splitlines()) <= 420, 'theory.md is longer than 420 lines')
 
 for file in sorted((root / 'prm').rglob('*.prm')):
     name = file.relative_to(root).as_posix()

@@ -44,24 +44,6 @@ std::vector<double> all_radii(const RingSpace& space) {
   return {all.begin(), all.end()};
 }
 
-/// The error of Q_h between the points along r, squared and integrated over dr / r: the square of
-/// the coefficient of the highest Legendre polynomial times the number of points. That is about the
-/// mean square of the error where coefficients fall slowly, and more than that where they
-/// fall fast.
-double missed_between_points(const RadialShapes& radial, const double* line) {
-  const auto& highest = radial.highest_mode;
-  double sum = 0;
-  for (unsigned int piece = 0; piece < radial.r.size(); piece += highest.size()) {
-    double measure = 0, coefficient = 0;
-    for (unsigned int q = 0; q < highest.size(); ++q) {
-      measure += radial.weight_over_r[piece + q];
-      coefficient += highest[q] * line[piece + q];
-    }
-    sum += measure * highest.size() * coefficient * coefficient;
-  }
-  return sum;
-}
-
 /// The integrals of w from each of increasing radii to the last one, by a rule on each interval
 /// between them.
 template <typename Function>
@@ -82,7 +64,7 @@ unsigned int place_of(double value, const std::vector<double>& list) {
   return std::lower_bound(list.begin(), list.end(), value) - list.begin();
 }
 
-/// The largest distance between neighbours in an increasing list, from @p begin to @p end.
+/// The largest step of an increasing list between two of its values.
 double widest_step(const std::vector<double>& list, double begin, double end) {
   double widest = 0;
   for (unsigned int k = place_of(begin, list); k < place_of(end, list); ++k)
@@ -218,15 +200,15 @@ void ForceIntegral::integrate_sector(const Scene& scene, const std::vector<doubl
   const SectorSamples samples =
       sample_sector(scene, inwards, angular, lagrange, ends, radii, begin, length);
   width = std::max(width, scene.outer_radius * length / (n_lines - 1));
-  const unsigned int n = inwards.size();
-  const double widest = (inwards.point(n / 2)[0] - inwards.point(n / 2 - 1)[0]) / n_parts;
+  const unsigned int middle = inwards.size() / 2;
+  const double widest = (inwards.point(middle)[0] - inwards.point(middle - 1)[0]) / n_parts;
   for (const Cell& cell : cells) {
     const double low = cell->vertex(0)[0], high = cell->vertex(3)[0];
     const RadialShapes& radial = shapes.on(low, high);
     const unsigned int index = cell->active_cell_index(), n_r = radial.r.size();
-    // Only in own cells, since a process has no radii in the others.
-    width = std::max({width, widest * widest_step(radii, low, high),
-                      widest * widest_step(ends, low, high) / n_parts});
+    // A process has no radii in cells of others.
+    width = std::max(width, widest * std::max(widest_step(radii, low, high),
+                                              widest_step(ends, low, high) / n_parts));
     double between = 0, along_r = 0;
     for (unsigned int p = 0; p < angular.size(); ++p) {
       for (const double r : radial.r)

@@ -67,6 +67,20 @@ void RadialShapes::integrate(const double* w, const std::vector<double>& weights
       integrals[i] += w[q] * weights[q] * (shapes[integrals.size() * q + i].*function);
 }
 
+double missed_between_points(const RadialShapes& radial, const double* line) {
+  const auto& highest = radial.highest_mode;
+  double sum = 0;
+  for (unsigned int piece = 0; piece < radial.r.size(); piece += highest.size()) {
+    double measure = 0, coefficient = 0;
+    for (unsigned int q = 0; q < highest.size(); ++q) {
+      measure += radial.weight_over_r[piece + q];
+      coefficient += highest[q] * line[piece + q];
+    }
+    sum += measure * highest.size() * coefficient * coefficient;
+  }
+  return sum;
+}
+
 namespace {
 
 RadialShapes make_shapes(const Scene& scene,

@@ -84,6 +84,12 @@ struct RadialShapes {
                  std::vector<double>& integrals) const;
 };
 
+/// The error of a polynomial between the points along r at which it has the values of @p line,
+/// squared and integrated over dr / r: the square of the coefficient of the highest Legendre
+/// polynomial times the number of points. That is about the mean square of the error where
+/// coefficients fall slowly, and more than that where they fall fast.
+double missed_between_points(const RadialShapes& radial, const double* line);
+
 /// The shapes of all radial intervals of a mesh, which are few.
 class RadialShapesOfMesh {
 public:
