@@ -137,8 +137,8 @@ plot '$road' using 1:2 with filledcurves @road_side fillcolor rgb '#c4b89c' noti
 unset key
 set lmargin at screen 0.58
 set rmargin at screen 0.98
-set tmargin at screen 0.90
-set bmargin at screen 0.65
+set tmargin at screen 0.89
+set bmargin at screen 0.64
 set size noratio
 set trange [1.5*pi-1.5*zoom/b:1.5*pi+1.5*zoom/b]
 set xrange [-zoom:zoom]
