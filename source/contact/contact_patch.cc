@@ -2,6 +2,7 @@
 
 #include "rollwave/scene/scene.h"
 
+#include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
 #include <deal.II/base/polynomial.h>
 
@@ -27,7 +28,12 @@ struct Profile {
 
   /// False for the tangent of a drum and beyond.
   bool is_over_road(double z) const {
-    return std::abs(from_lowest_point(z)) < road.tangent_angle() - angular_round_off;
+    return !road.is_convex() ||
+           std::abs(from_lowest_point(z)) < road.tangent_angle() - angular_round_off;
+  }
+
+  bool zone_is_whole_circle() const {
+    return scene.zone_end - scene.zone_begin > 2 * numbers::PI - angular_round_off;
   }
 
   /// The last angle in the direction @p out (-1 or 1) at which contact can end: that of the zone,
@@ -83,7 +89,7 @@ PatchEnd find_end(const Profile& nodes, int i, int out) {
                        nodes.pressure[inner], 1 / (1 - s));
   // The law of a pressure that is singular at the end of the zone has its root far beyond, or none.
   if (!nodes.has_node(near) && nodes.is_over_road(reach) && !(by_pressure && *by_pressure < 1))
-    return {reach, 0, edge, true};
+    return {reach, 0, edge, !nodes.zone_is_whole_circle()};
   const double farthest = std::clamp(out * (reach - z[i]) / edge, 0., 1.);
   const auto guess = [&](const std::optional<double>& distance) {
     return std::clamp(distance.value_or(0.25), -0.5, farthest);

@@ -9,7 +9,7 @@ using Value = std::function<std::optional<double>(const Result&)>;
 /// Adds a quantity and the estimate of its error.
 void add_estimated(Quantities& all, const ResultQuantity& quantity, const Value& uncertainty) {
   all.push_back(quantity);
-  all.push_back({quantity.name + "_uncertainty", "estimated error of " + quantity.words, "",
+  all.push_back({quantity.name + "_uncertainty", "estimated error of the " + quantity.words, "",
                  quantity.quantity, 0, 2, uncertainty});
 }
 
@@ -21,10 +21,10 @@ void add_certified(Quantities& all, const ResultQuantity& quantity, Interval Loa
     };
   };
   all.push_back(quantity);
-  all.push_back({quantity.name + "_lower_bound", "guaranteed lower bound of " + quantity.words, "",
-                 quantity.quantity, 0, all_digits, end_of(&Interval::lower)});
-  all.push_back({quantity.name + "_upper_bound", "guaranteed upper bound of " + quantity.words, "",
-                 quantity.quantity, 0, all_digits, end_of(&Interval::upper)});
+  all.push_back({quantity.name + "_lower_bound", "guaranteed lower bound of the " + quantity.words,
+                 "", quantity.quantity, 0, all_digits, end_of(&Interval::lower)});
+  all.push_back({quantity.name + "_upper_bound", "guaranteed upper bound of the " + quantity.words,
+                 "", quantity.quantity, 0, all_digits, end_of(&Interval::upper)});
 }
 
 void add_loads(Quantities& all) {
