@@ -65,7 +65,7 @@ bool AdmissibleRoad::is_resolved(double begin, double end) const {
   // phi is singular where sin x = 1/m.
   const double m = std::max(1 + road.curvature * road.distance, 1e-300);
   const std::complex<double> singular = std::asin(std::complex<double>(1 / m));
-  constexpr double wanted = 5;
+  constexpr double wanted = 6;
   for (const auto& place :
        {singular, -singular, PI - singular, singular - PI, 2 * PI - singular, singular - 2 * PI})
     if (ellipse_through((place - middle) / half) < wanted)

@@ -90,7 +90,7 @@ Quantities work_quantities() {
 }
 
 /// The number of a name; nullopt if no quantity has that name.
-std::optional<double> value_if_any(const std::string& name, const Result& result,
+std::optional<double> value_of(const std::string& name, const Result& result,
                                    const Units& units) {
   for (const ResultQuantity& quantity : result_quantities())
     if (quantity.name == name)
@@ -134,13 +134,13 @@ const ResultQuantity& result_quantity(std::string_view name) {
 
 std::optional<double> uncertainty_of(const std::string& name, const Result& result,
                                      const Units& units) {
-  return value_if_any(name + "_uncertainty", result, units);
+  return value_of(name + "_uncertainty", result, units);
 }
 
 std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
                                             const Units& units) {
-  const auto lower = value_if_any(name + "_lower_bound", result, units),
-             upper = value_if_any(name + "_upper_bound", result, units);
+  const auto lower = value_of(name + "_lower_bound", result, units),
+             upper = value_of(name + "_upper_bound", result, units);
   return lower && upper && std::isfinite(*upper - *lower) ? std::optional(Interval{*lower, *upper})
                                                           : std::nullopt;
 }

@@ -43,7 +43,7 @@ public:
    * True if Gauss' rule with a few points more than a polynomial needs is exact to round-off for
    * phi between two angles without a corner in between: the nearest singularity of phi, in the
    * complex plane too, lies outside of Bernstein's ellipse of the interval whose semi-axes add up
-   * to 5 of its half-lengths.
+   * to 6 of its half-lengths.
    */
   bool is_resolved(double begin, double end) const;
 
