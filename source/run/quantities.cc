@@ -90,8 +90,8 @@ Quantities work_quantities() {
 }
 
 /// The number of a name; nullopt if no quantity has that name.
-std::optional<double> value_of(const std::string& name, const Result& result,
-                                   const Units& units) {
+std::optional<double> number_if_known(const std::string& name, const Result& result,
+                                      const Units& units) {
   for (const ResultQuantity& quantity : result_quantities())
     if (quantity.name == name)
       return quantity.in_users_units(result, units);
@@ -134,13 +134,13 @@ const ResultQuantity& result_quantity(std::string_view name) {
 
 std::optional<double> uncertainty_of(const std::string& name, const Result& result,
                                      const Units& units) {
-  return value_of(name + "_uncertainty", result, units);
+  return number_if_known(name + "_uncertainty", result, units);
 }
 
 std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
                                             const Units& units) {
-  const auto lower = value_of(name + "_lower_bound", result, units),
-             upper = value_of(name + "_upper_bound", result, units);
+  const auto lower = number_if_known(name + "_lower_bound", result, units),
+             upper = number_if_known(name + "_upper_bound", result, units);
   return lower && upper && std::isfinite(*upper - *lower) ? std::optional(Interval{*lower, *upper})
                                                           : std::nullopt;
 }

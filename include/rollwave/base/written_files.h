@@ -17,7 +17,8 @@ struct WrittenFiles {
   /// Writes a file. @throws NotWritten.
   void write(const std::filesystem::path& path, const std::string& content);
 
-  /// Writes a file of which each process has a part, see write_file_in_parts(). @throws NotWritten on all of them
+  /// Writes a file of which each process has a part, see write_file_in_parts(). @throws NotWritten
+  /// on all of them
   void write_parts(const std::filesystem::path& path, const std::string& part,
                    MPI_Comm communicator);
 

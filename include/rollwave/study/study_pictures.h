@@ -24,8 +24,8 @@ constexpr const char* study_picture_names[] = {"study-curves", "study-profiles",
  *   varies fastest; then force, stiffness, peak pressure, half-width and contact length over that
  *   key;
  * - study-profiles.svg: pressures along the road;
- * - study-map.svg: the vertical load, or for a given load the deflection, over two keys of the scene
- *   with more values than curves can show;
+ * - study-map.svg: the vertical load, or for a given load the deflection, over two keys of the
+ * scene with more values than curves can show;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   or, if it is not known, its bound, over h, unknowns and seconds;
  * - study.svg: contact steps on uniform meshes over the key that varies fastest, if that is a
