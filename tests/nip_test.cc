@@ -33,7 +33,7 @@ TEST(Nip, GivesBackTheDistanceOfTheExactAnswer) {
              {"Road/Distance=none", "Road/Nip=" + shortest_text(nip), "Mesh/Radial cells=4",
               "Mesh/Angular cells=60", "Mesh/Wanted relative error=2e-3"});
     const Solution solution = simulate(make_scene(parameters), parameters);
-    EXPECT_NEAR(solution.result.road_distance, paper.distance, 3e-4) << paper.figure;
+    EXPECT_NEAR(solution.result.road_distance, paper.distance, 5e-4) << paper.figure;
     EXPECT_NEAR(solution.result.contact.length(), nip, 1e-3 * nip) << paper.figure;
     EXPECT_EQ(shortfall_text(solution.result), "") << paper.figure;
     EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), paper.distance, 1e-8);
@@ -51,7 +51,7 @@ TEST(Nip, OfARunGivesItsDistanceAgain) {
     const Result first = solve_for(by_distance).result;
     by_nip.push_back("Road/Nip=" + shortest_text(first.contact.length()));
     const Result again = solve_for(by_nip).result;
-    EXPECT_NEAR(again.road_distance, 0.93, 2e-3 * (1 - 0.93)) << setting;
+    EXPECT_NEAR(again.road_distance, 0.93, 2e-2 * (1 - 0.93)) << setting;
     EXPECT_EQ(again.distance_history.back().distance, again.road_distance);
   }
 }

@@ -198,7 +198,7 @@ TEST_F(Program, DrawsItsPicturesAgainFromTheirScripts) {
                     of_meshes = " --set 'Study/Vary=Mesh/Global refinements = 0 | 1' --set "
                                 "'Study/True errors=true'";
   for (const auto& [settings, least_pictures] :
-       {std::pair(std::string(), 1u), {of_scenes, 3u}, {of_meshes, 3u}}) {
+       {std::pair(std::string(), 1u), {of_scenes, 2u}, {of_meshes, 3u}}) {
     fs::remove_all(directory / "out");
     ASSERT_EQ(shell("$rollwave " + scene + settings).exit_code, 0);
     unsigned int n_pictures = 0;
@@ -224,14 +224,16 @@ TEST_F(Program, NeverWritesOverTheFileItReads) {
   fs::copy_file(directory / "scene.prm", input);
   fs::create_symlink(input, link);
   const std::string before = read("parameters.prm");
-  for (const fs::path& name : {input, link}) {
-    const Outcome outcome = shell("$rollwave '" + name.string() + "' --set Road/Distance=0.9");
+  for (const std::string& arguments :
+       {"'" + input.string() + "' --set Road/Distance=0.9", "'" + link.string() + "'",
+        "'" + input.string() + "' --set 'Study/Vary=Mesh/Degree = 1'"}) {
+    for (const auto& entry : fs::directory_iterator(out))
+      if (entry.path() != input)
+        fs::remove_all(entry.path());
+    const Outcome outcome = shell("$rollwave " + arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
     EXPECT_EQ(read("parameters.prm"), before);
   }
-  EXPECT_EQ(
-      shell("$rollwave '" + input.string() + "' --set 'Study/Vary=Mesh/Degree = 1'").exit_code, 0);
-  EXPECT_EQ(read("parameters.prm"), before);
 }
 
 TEST_F(Program, WritesToOutputNameByDefault) {
@@ -248,6 +250,7 @@ TEST_F(Program, WritesToOutputNameByDefault) {
 }
 
 TEST_F(Program, WritesTheOtherFilesIfTheFieldCannotBeWritten) {
+  ASSERT_EQ(shell("$rollwave " + scene + " --set Output/Files=parameters").exit_code, 0);
   fs::create_directories(directory / "out" / "solution.vtu");
   EXPECT_EQ(shell("$rollwave " + scene).exit_code, 3);
   for (const char* name : {"summary.json", "contact.csv", "parameters.prm", "scene.svg"})
@@ -518,7 +521,7 @@ protected:
                   tolerance * std::abs(wanted))
           << name;
     };
-    expect_near("/contact/half_width", 1, 1e-3);
+    expect_near("/contact/half_width", 1, 3e-3);
     expect_near("/contact/force", 2, 1e-4);
     expect_near("/energy/value", 3, 1e-5);
     expect_near("/contact/peak_pressure", 4, 1e-3);

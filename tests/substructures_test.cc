@@ -65,14 +65,16 @@ protected:
   static void SetUpTestSuite() {
     static int n_arguments = 0;
     static char** arguments = nullptr;
-    static const Utilities::MPI::MPI_InitFinalize mpi(n_arguments, arguments, 1);
+    mpi = std::make_unique<Utilities::MPI::MPI_InitFinalize>(n_arguments, arguments, 1);
   }
+  static void TearDownTestSuite() { mpi.reset(); } // before the static objects of libraries end
 
   Substructures()
       : parameters(parameters_of({"Mesh/Degree=3", "Mesh/Radial cells=4", "Mesh/Angular cells=60",
                                   "Cylinder/Radial force=1 + r*sin(z)"})),
         scene(make_scene(parameters)) {}
 
+  static inline std::unique_ptr<Utilities::MPI::MPI_InitFinalize> mpi;
   const Parameters parameters;
   const Scene scene;
 };

@@ -172,11 +172,16 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
       equations.solve(none, solution.state, statistics);
     change -= displacement;
 
-    // Relative to what contact does: the whole displacement passes through zero where the force
-    // pushes outwards, and hides a light contact where it is large.
+    // Relative to what contact does, since a large displacement hides a light contact. Where the
+    // force is far larger than the road lets it act, relative to the displacement; this passes
+    // through zero where the force pushes outwards, but then the road is away from zero.
     Vector<double> by_contact = displacement;
     by_contact -= free;
-    const double size = std::max(by_contact.l2_norm(), least_size * displacement.l2_norm());
+    double squared = displacement.norm_sqr();
+    for (unsigned int i = 0; i < problem.size(); ++i)
+      squared += solution.active[i] ? std::pow(problem.phi(i), 2) : 0.;
+    const double size = std::max(std::min(by_contact.l2_norm(), std::sqrt(squared)),
+                                 least_size * displacement.l2_norm());
     const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);
