@@ -14,15 +14,15 @@ using namespace rollwave;
 
 namespace {
 
-Result result_of(const std::vector<std::string>& settings) {
+Result refined(const std::vector<std::string>& settings) {
   const Parameters parameters = parameters_of(settings);
   return simulate(make_scene(parameters), parameters).result;
 }
 
 TEST(FirstMesh, HasTheGradingThatItsHubNeeds) {
   for (const std::string hub : {"1e-2", "1e-4", "1e-6", "1e-12", "1e-150"}) {
-    const Result result = result_of({"Cylinder/Inner radius=" + hub, "Mesh/Radial cells=2",
-                                     "Mesh/Angular cells=24", "Mesh/Wanted relative error=0.03"});
+    const Result result = refined({"Cylinder/Inner radius=" + hub, "Mesh/Radial cells=2",
+                                   "Mesh/Angular cells=24", "Mesh/Wanted relative error=0.03"});
     EXPECT_LE(result.certified->relative, 0.03) << hub;
     EXPECT_LE(result.mesh.n_unknowns, 300000u) << hub;
     EXPECT_FALSE(texts_of(result.notes, Note::Kind::remark).empty()) << hub;
@@ -42,9 +42,9 @@ TEST(FirstMesh, IsTheOneGivenWhereItsCellsAreEnough) {
 
 TEST(FirstMesh, HasColumnsEnoughForANarrowZone) {
   for (const std::string degree : {"1", "2"}) {
-    const Result result = result_of({"Road/Contact zone=4.7123, 4.7124", "Mesh/Degree=" + degree,
-                                     "Mesh/Radial cells=2", "Mesh/Angular cells=3",
-                                     "Mesh/Wanted relative error=0.02"});
+    const Result result =
+        refined({"Road/Contact zone=4.7123, 4.7124", "Mesh/Degree=" + degree, "Mesh/Radial cells=2",
+                 "Mesh/Angular cells=3", "Mesh/Wanted relative error=0.02"});
     EXPECT_LE(result.certified->relative, 0.02) << degree;
     EXPECT_LE(result.cycles.size(), 20u) << degree;
   }
@@ -52,9 +52,9 @@ TEST(FirstMesh, HasColumnsEnoughForANarrowZone) {
 
 // A force that is not square-integrable has no finite bound.
 TEST(Refinement, EndsWithoutAFiniteBound) {
-  const Result result = result_of({"Cylinder/Radial force=abs(z-4.7)^(-0.7)", "Mesh/Radial cells=2",
-                                   "Mesh/Angular cells=24", "Mesh/Wanted relative error=0.02",
-                                   "Mesh/Marked fraction=0.01"});
+  const Result result = refined({"Cylinder/Radial force=abs(z-4.7)^(-0.7)", "Mesh/Radial cells=2",
+                                 "Mesh/Angular cells=24", "Mesh/Wanted relative error=0.02",
+                                 "Mesh/Marked fraction=0.01"});
   EXPECT_LE(result.cycles.size(), 40u);
   EXPECT_NE(shortfall_text(result), "");
 }
@@ -62,9 +62,9 @@ TEST(Refinement, EndsWithoutAFiniteBound) {
 // Contact through the tangent of a needle, where the bound goes up and down.
 TEST(Refinement, EndsWithItsBestMesh) {
   const Result result =
-      result_of({"Cylinder/Inner radius=0.5263157894736842", "Cylinder/Angular velocity=0.05347",
-                 "Road/Curvature=8550", "Road/Load=0.0523", "Mesh/Radial cells=4",
-                 "Mesh/Angular cells=60", "Mesh/Wanted relative error=1e-3"});
+      refined({"Cylinder/Inner radius=0.5263157894736842", "Cylinder/Angular velocity=0.05347",
+               "Road/Curvature=8550", "Road/Load=0.0523", "Mesh/Radial cells=4",
+               "Mesh/Angular cells=60", "Mesh/Wanted relative error=1e-3"});
   EXPECT_TRUE(std::isfinite(result.certified->relative));
   EXPECT_LE(result.cycles.size(), 60u);
   for (const CycleFigures& cycle : result.cycles)

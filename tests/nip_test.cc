@@ -16,7 +16,7 @@ using namespace rollwave;
 
 namespace {
 
-Solution solve_for(const std::vector<std::string>& settings) {
+Solution solved(const std::vector<std::string>& settings) {
   const Parameters parameters = parameters_of(settings);
   return simulate(make_scene(parameters), parameters);
 }
@@ -48,9 +48,9 @@ TEST(Nip, OfARunGivesItsDistanceAgain) {
                                             "Mesh/Angular cells=80", setting};
     std::vector<std::string> by_distance = scene, by_nip = scene;
     by_distance.push_back("Road/Distance=0.93");
-    const Result first = solve_for(by_distance).result;
+    const Result first = solved(by_distance).result;
     by_nip.push_back("Road/Nip=" + shortest_text(first.contact.length()));
-    const Result again = solve_for(by_nip).result;
+    const Result again = solved(by_nip).result;
     EXPECT_NEAR(again.road_distance, 0.93, 2e-2 * (1 - 0.93)) << setting;
     EXPECT_EQ(again.distance_history.back().distance, again.road_distance);
   }
@@ -59,7 +59,7 @@ TEST(Nip, OfARunGivesItsDistanceAgain) {
 TEST(Nip, IsRefusedIfNoDistanceGivesIt) {
   for (const std::string nip : {"1.8", "50"})
     try {
-      solve_for({"Road/Nip=" + nip, "Mesh/Radial cells=4", "Mesh/Angular cells=48"});
+      solved({"Road/Nip=" + nip, "Mesh/Radial cells=4", "Mesh/Angular cells=48"});
       FAIL() << nip;
     } catch (const BadValue& refused) {
       EXPECT_EQ(refused.section + '/' + refused.key, "Road/Nip");
@@ -88,7 +88,7 @@ TEST(Nip, AndLoadCalibrateTheShearModulus) {
   EXPECT_NEAR(wanted, 3.25, 0.03);
 
   for (const std::string setting : {"Mesh/Angular cells=400", "Contact/Method=uzawa"}) {
-    const Solution solution = solve_for(
+    const Solution solution = solved(
         plus(roller, {"Road/Load=1500", "Mesh/Radial cells=6", "Mesh/Angular cells=300", setting}));
     const MaterialOptions& material = solution.scene.units.material;
     EXPECT_NEAR(material.shear_modulus / wanted, 1, 1e-2) << setting;
@@ -99,8 +99,8 @@ TEST(Nip, AndLoadCalibrateTheShearModulus) {
     EXPECT_NEAR(*solution.result.modulus_ratio, material.shear_modulus * 2.98 / 4.5, 1e-9);
   }
   const Solution fine =
-      solve_for(plus(roller, {"Road/Load=1500", "Mesh/Radial cells=4", "Mesh/Angular cells=60",
-                              "Mesh/Wanted relative error=1e-3"}));
+      solved(plus(roller, {"Road/Load=1500", "Mesh/Radial cells=4", "Mesh/Angular cells=60",
+                           "Mesh/Wanted relative error=1e-3"}));
   EXPECT_NEAR(fine.scene.units.material.shear_modulus / wanted, 1, 1e-3);
 }
 
