@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <functional>
 #include <optional>
 #include <random>
 #include <sstream>
@@ -23,18 +22,6 @@ namespace {
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw NotWritten(path.string() + " could not be written" +
                    (error ? std::string(": ") + std::strerror(error) : std::string()));
-}
-
-/// Does some work on all processes. @throws NotWritten on all of them where one does
-void write_on_all(MPI_Comm communicator, const std::function<void()>& work) {
-  std::string failure;
-  try {
-    work();
-  } catch (const NotWritten& error) {
-    failure = error.what();
-  }
-  if (!holds_on_all(communicator, failure.empty()))
-    throw NotWritten(first_text(communicator, failure));
 }
 
 } // namespace
@@ -92,7 +79,7 @@ unsigned long write_file_in_parts(const fs::path& path, const std::string& part,
     return write_file(path, part);
   const bool is_first = process_number(communicator) == 0;
   std::optional<AtomicFile> file; // of rank 0
-  write_on_all(communicator, [&] {
+  do_on_all(communicator, [&] {
     if (is_first)
       file.emplace(path);
   });
@@ -114,7 +101,7 @@ unsigned long write_file_in_parts(const fs::path& path, const std::string& part,
       MPI_Send(part.data() + begin, std::min(most, part.size() - begin), MPI_CHAR, 0, tag,
                communicator);
   unsigned long size = 0;
-  write_on_all(communicator, [&] {
+  do_on_all(communicator, [&] {
     if (file)
       size = file->commit();
   });

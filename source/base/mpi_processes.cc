@@ -40,20 +40,24 @@ std::string first_text(MPI_Comm communicator, const std::string& text) {
 }
 
 void do_on_all(MPI_Comm communicator, const std::function<void()>& work) {
-  std::string shortage, failure;
+  std::string shortage, failure, unwritten;
   try {
     work();
   } catch (const NotEnoughMemory& error) {
     shortage = error.reason;
   } catch (const NotSolved& error) {
     failure = error.what();
+  } catch (const NotWritten& error) {
+    unwritten = error.what();
   } catch (const std::bad_alloc&) {
     shortage = NotEnoughMemory().reason;
   } catch (const ExcOutOfMemory&) { // by the vectors of deal.II
     shortage = NotEnoughMemory().reason;
   }
-  if (holds_on_all(communicator, shortage.empty() && failure.empty()))
+  if (holds_on_all(communicator, shortage.empty() && failure.empty() && unwritten.empty()))
     return;
+  if (unwritten = first_text(communicator, unwritten); !unwritten.empty())
+    throw NotWritten(unwritten);
   if (shortage = first_text(communicator, shortage); !shortage.empty())
     throw NotEnoughMemory(shortage);
   throw NotSolved(first_text(communicator, failure));

@@ -118,6 +118,24 @@ ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p
   return step;
 }
 
+/// What residuals are relative to, in the l2 norm of the contact nodes: the displacement by contact
+/// or, if that is smaller, displacement and road at the nodes that are pressed. A light contact on
+/// a large displacement needs the first. Under a large force contact takes nearly all of it back,
+/// and needs the second. The displacement alone may pass through zero on its way.
+/// @param free the displacement without contact
+double size_for_residuals(const ContactProblem& problem, const ContactSolution& solution,
+                          const Vector<double>& free) {
+  const Vector<double>& displacement = solution.state.displacement;
+  Vector<double> by_contact = displacement;
+  by_contact -= free;
+  double squared = displacement.norm_sqr();
+  for (unsigned int i = 0; i < problem.size(); ++i)
+    if (solution.active[i])
+      squared += std::pow(problem.phi(i), 2);
+  return std::max(std::min(by_contact.l2_norm(), std::sqrt(squared)),
+                  least_size * displacement.l2_norm());
+}
+
 } // namespace
 
 double largest_compliance(const ContactEquations& equations, const ContactProblem& problem,
@@ -172,16 +190,7 @@ ContactSolution uzawa(const ContactEquations& equations, const ContactProblem& p
       equations.solve(none, solution.state, statistics);
     change -= displacement;
 
-    // Relative to what contact does, since a large displacement hides a light contact. Where the
-    // force is far larger than the road lets it act, relative to the displacement; this passes
-    // through zero where the force pushes outwards, but then the road is away from zero.
-    Vector<double> by_contact = displacement;
-    by_contact -= free;
-    double squared = displacement.norm_sqr();
-    for (unsigned int i = 0; i < problem.size(); ++i)
-      squared += solution.active[i] ? std::pow(problem.phi(i), 2) : 0.;
-    const double size = std::max(std::min(by_contact.l2_norm(), std::sqrt(squared)),
-                                 least_size * displacement.l2_norm());
+    const double size = size_for_residuals(problem, solution, free);
     const double measured = options.stop == UzawaStop::gap ? violation : change.l2_norm();
     step.residual = size > 0 ? measured / size : measured;
     solution.history.push_back(step);

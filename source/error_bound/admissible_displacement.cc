@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rollwave {
 
@@ -54,29 +55,30 @@ struct Shape {
   double size; ///< its largest value in size, at most
 };
 
-/// The shape of a function by its coefficients c_k of Chebyshev's polynomials, from its values at
-/// @p n points: |c_0| > sum_(k > 0) |c_k| means one sign, and |c_1| > sum_(k > 1) k^2 |c_k| a
-/// derivative of one sign, since |T_k| <= 1 and |T_k'| <= k^2 there.
+/// The shape of a function by its coefficients c_k of Chebyshev's polynomials T_k, from its values
+/// at the @p points of Chebyshev in [0, 1]: |c_0| > sum_(k > 0) |c_k| means one sign, and
+/// |c_1| > sum_(k > 1) k^2 |c_k| a derivative of one sign, since |T_k| <= 1 and |T_k'| <= k^2
+/// there.
 template <typename Function>
-Shape shape_of(const Function& function, double begin, double end, unsigned int n) {
-  std::vector<double> values;
-  for (unsigned int j = 0; j < n; ++j)
-    values.push_back(
-        function((begin + end + (end - begin) * std::cos((j + 0.5) * numbers::PI / n)) / 2));
-  double size = 0, size_of_slope = 0, mean = 0, slope = 0;
-  for (unsigned int k = 0; k < n; ++k) {
-    double sum = 0;
-    for (unsigned int j = 0; j < n; ++j)
-      sum += values[j] * std::cos(k * (j + 0.5) * numbers::PI / n);
-    const double coefficient = std::abs(sum) * (k == 0 ? 1 : 2) / n;
-    size += coefficient;
-    size_of_slope += k * k * coefficient;
-    if (k == 0)
-      mean = coefficient;
-    if (k == 1)
-      slope = coefficient;
+Shape shape_of(const Function& function, double begin, double end,
+               const std::vector<Point<1>>& points) {
+  std::vector<double> c(points.size());
+  for (const Point<1>& point : points) {
+    const double value = function(begin + (end - begin) * point[0]) / points.size(),
+                 x = 2 * point[0] - 1;
+    double before = 1, here = x; // T_(k - 1) and T_k
+    c[0] += value;
+    for (unsigned int k = 1; k < c.size(); ++k) {
+      c[k] += 2 * value * here;
+      before = std::exchange(here, 2 * x * here - before);
+    }
   }
-  return {2 * mean > size, 2 * slope > size_of_slope, size};
+  double size = 0, size_of_slope = 0;
+  for (unsigned int k = 0; k < c.size(); ++k) {
+    size += std::abs(c[k]);
+    size_of_slope += k * k * std::abs(c[k]);
+  }
+  return {2 * std::abs(c[0]) > size, 2 * std::abs(c[1]) > size_of_slope, size};
 }
 
 } // namespace
@@ -84,7 +86,8 @@ Shape shape_of(const Function& function, double begin, double end, unsigned int 
 AdmissibleTrace::AdmissibleTrace(const ContactBoundary& boundary, const Scene& scene,
                                  const AdmissibleRoad& road, const FieldVector& field,
                                  const std::vector<bool>& active)
-    : road(road), discrete(boundary.space(), field) {
+    : road(road), discrete(boundary.space(), field),
+      chebyshev(QGaussChebyshev<1>(n_points() + 5).get_points()) {
   const auto is_active = [&](unsigned int node) {
     const auto contact = boundary.contact_number(node);
     return contact && active[*contact];
@@ -160,7 +163,7 @@ void AdmissibleTrace::add_pieces(unsigned int edge, const Piece& piece,
     return;
   }
   const auto excess_at = [&](double t) { return excess(edge, t).value; };
-  const Shape shape = shape_of(excess_at, piece.t_begin, piece.t_end, n_points() + 5);
+  const Shape shape = shape_of(excess_at, piece.t_begin, piece.t_end, chebyshev);
   // That of the angle, whose size is about 5, counts where the road is steep.
   const double slope = road.limit(begin + middle * length).slope;
   const double round_off = 1e-14 * (std::abs(discrete.value(edge, middle)) + 5 * std::abs(slope));

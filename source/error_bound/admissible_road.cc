@@ -18,6 +18,12 @@ double ellipse_through(const std::complex<double>& point) {
   return std::max(size, 1 / size);
 }
 
+/// The angle from the lowest point at which phi is singular, sin x = 1/m, as in Road.
+std::complex<double> singularity(const Road& road) {
+  const double m = std::max(1 + road.curvature * road.distance, 1e-300);
+  return std::asin(std::complex<double>(1 / m));
+}
+
 } // namespace
 
 AdmissibleRoad::AdmissibleRoad(const Road& road, const Obstacle& phi, double reach)
@@ -26,7 +32,7 @@ AdmissibleRoad::AdmissibleRoad(const Road& road, const Obstacle& phi, double rea
       value_at_last(road.displacement(last_contact)), slope_at_last(road.slope(last_contact)),
       value_at_tangent(std::sqrt(road.distance * (road.distance + 2 / road.curvature)) -
                        road.outer_radius),
-      value_beyond(road.displacement(PI / 2)) {}
+      value_beyond(road.displacement(PI / 2)), singular(singularity(road)) {}
 
 AdmissibleRoad::ValueAndSlope AdmissibleRoad::limit(double z) const {
   const double x = from_lowest_point(z);
@@ -62,9 +68,6 @@ bool AdmissibleRoad::is_resolved(double begin, double end) const {
   const double middle = from_lowest_point((begin + end) / 2), half = (end - begin) / 2;
   if (road.is_convex() && std::abs(middle) > last_contact)
     return true;
-  // phi is singular where sin x = 1/m.
-  const double m = std::max(1 + road.curvature * road.distance, 1e-300);
-  const std::complex<double> singular = std::asin(std::complex<double>(1 / m));
   constexpr double wanted = 6;
   for (const auto& place :
        {singular, -singular, PI - singular, singular - PI, 2 * PI - singular, singular - 2 * PI})

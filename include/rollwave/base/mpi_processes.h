@@ -24,7 +24,7 @@ bool holds_on_all(MPI_Comm communicator, bool statement);
 std::string broadcast(MPI_Comm communicator, const std::string& text);
 
 /// Does some work of each process for its own, without messages. Where it fails on one, all throw:
-/// else the others would wait for its next message. @throws NotEnoughMemory, NotSolved
+/// else the others would wait for its next message. @throws NotEnoughMemory, NotSolved, NotWritten
 void do_on_all(MPI_Comm communicator, const std::function<void()>& work);
 
 /// The text of the first rank that has one, on all ranks; empty if no rank has one.

@@ -9,7 +9,8 @@
 
 namespace rollwave {
 
-/// One stretch of the surface in contact. Beside a number stands an estimate of its error.
+/// One stretch of the surface in contact. Numbers that end in _uncertainty estimate the error of
+/// the number before them.
 struct ContactPatch {
   double begin; ///< an angle
   double begin_uncertainty;

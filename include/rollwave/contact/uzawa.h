@@ -20,7 +20,8 @@ namespace rollwave {
  * diverges is refused, since a loose tolerance might be met before the residual grows. Between the
  * two the residual may stop falling.
  *
- * Residuals are relative to the displacement by contact, u_h(p) - u_h(0).
+ * Residuals are relative to the displacement by contact, u_h(p) - u_h(0), or, if that is smaller,
+ * to the displacement and the road at the nodes that are pressed.
  *
  * @throws NotSolved when it diverges, with the largest rho that can converge, or after
  *         options.most_steps steps.

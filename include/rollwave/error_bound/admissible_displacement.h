@@ -4,6 +4,8 @@
 #include "rollwave/error_bound/admissible_road.h"
 #include "rollwave/mesh/surface_trace.h"
 
+#include <deal.II/base/point.h>
+
 #include <utility>
 #include <vector>
 
@@ -67,7 +69,8 @@ private:
   SurfaceTrace::ValueAndSlope excess(unsigned int edge, double t) const; ///< u_h - phi_v
 
   AdmissibleRoad road;
-  SurfaceTrace discrete; ///< u_h
+  SurfaceTrace discrete;                   ///< u_h
+  std::vector<dealii::Point<1>> chebyshev; ///< points at which the excess is looked at
   std::vector<std::vector<Piece>> edges;
 };
 

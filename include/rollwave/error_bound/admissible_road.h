@@ -2,6 +2,7 @@
 
 #include "rollwave/scene/road.h"
 
+#include <complex>
 #include <vector>
 
 namespace rollwave {
@@ -57,6 +58,8 @@ private:
   double slope_at_last;    ///< phi'(x_c)
   double value_at_tangent; ///< phi(x_t), from inside
   double value_beyond;     ///< phi for |x| > x_t
+
+  std::complex<double> singular; ///< the place where phi is singular, as are -x and pi - x
 };
 
 } // namespace rollwave

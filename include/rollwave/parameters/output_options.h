@@ -13,7 +13,7 @@ enum class OutputFile { summary, contact, parameters, solution, surface, plot };
 /// The cells of solution.vtu for elements of degree 2 and more.
 enum class CellKind { high_order, linear };
 
-/// Of pictures, which gnuplot draws.
+/// The formats in which gnuplot draws pictures.
 enum class PictureFormat { svg, png, pdf };
 
 /// Section `Output`.

@@ -37,7 +37,7 @@ struct Panel {
   std::vector<double> slopes = {}; ///< expected powers of x, drawn as dotted lines below the curves
 };
 
-/// The most curves that can be told apart in one panel.
+/// A panel shows at most this many curves: the eye does not tell more of them apart.
 constexpr unsigned int most_curves = 6;
 
 /// Up to @p most of the numbers 0 to n - 1, equally spaced, with the first and the last one.

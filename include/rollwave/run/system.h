@@ -19,8 +19,8 @@ struct Scene;
 struct System {
   ContactBoundary boundary; ///< of the widest zone of the runs that use it
 
-  /// Of the stiffness matrix, with the contact nodes among the unknowns that processes keep. A run
-  /// frees it when it has the displacement.
+  /// The factor of the stiffness matrix. Each process keeps its contact nodes in it. A run frees it
+  /// when it has the displacement.
   std::unique_ptr<const SparseFactor> factor;
 
   std::unique_ptr<CondensedSystem> condensed;

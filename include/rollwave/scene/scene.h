@@ -126,8 +126,8 @@ std::string force_not_finite_at(const Scene& scene, double r, double z);
 /// The scene with its road moved to the distance @p c below the axle, a length. The zone stays.
 Scene with_distance(Scene scene, double c);
 
-/// The scene with @p ratio times its shear modulus and density, so that the wave speed stays. All
-/// of its numbers stay but the load that is given, which is relative to the shear modulus.
+/// The scene with @p ratio times its shear modulus and density, so that the wave speed stays. In
+/// the units of the scene only the given load changes, since it is relative to the shear modulus.
 Scene calibrated(Scene scene, double ratio);
 
 /**
