@@ -7,6 +7,7 @@
 #include "rollwave/scene/units.h"
 
 #include <boost/algorithm/string/erase.hpp>
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cctype>
@@ -88,11 +89,15 @@ void check_method(const std::vector<RunPlan>& plans) {
                      setting.path() + " has no effect without Contact/Method = uzawa");
 }
 
-/// A number with at most five digits, whole ones with all; other values as they are.
+/// The numbers of a value with at most five digits, whole ones with all; other values as they are.
 std::string shortened(const std::string& value) {
   try {
-    const double number = to_number(value);
-    return number == std::round(number) ? value : rounded(number, 5);
+    std::vector<std::string> numbers;
+    for (const std::string& text : split(value, ',')) {
+      const double number = to_number(text);
+      numbers.push_back(number == std::round(number) ? text : rounded(number, 5));
+    }
+    return boost::algorithm::join(numbers, ", ");
   } catch (const std::invalid_argument&) {
     return value;
   }
