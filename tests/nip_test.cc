@@ -33,8 +33,10 @@ TEST(Nip, GivesBackTheDistanceOfTheExactAnswer) {
              {"Road/Distance=none", "Road/Nip=" + shortest_text(nip), "Mesh/Radial cells=4",
               "Mesh/Angular cells=60", "Mesh/Wanted relative error=2e-3"});
     const Solution solution = simulate(make_scene(parameters), parameters);
-    EXPECT_NEAR(solution.result.road_distance, paper.distance, 5e-4) << paper.figure;
-    EXPECT_NEAR(solution.result.contact.length(), nip, 1e-3 * nip) << paper.figure;
+    const double uncertainty = solution.result.contact.sum(&ContactPatch::length_uncertainty);
+    EXPECT_NEAR(solution.result.road_distance, paper.distance, uncertainty / 2) << paper.figure;
+    EXPECT_LT(uncertainty, 1e-2) << paper.figure;
+    EXPECT_NEAR(solution.result.contact.length(), nip, 1e-6 * nip) << paper.figure;
     EXPECT_EQ(shortfall_text(solution.result), "") << paper.figure;
     EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), paper.distance, 1e-8);
   }
@@ -51,7 +53,7 @@ TEST(Nip, OfARunGivesItsDistanceAgain) {
     const Result first = solved(by_distance).result;
     by_nip.push_back("Road/Nip=" + shortest_text(first.contact.length()));
     const Result again = solved(by_nip).result;
-    EXPECT_NEAR(again.road_distance, 0.93, 2e-2 * (1 - 0.93)) << setting;
+    EXPECT_NEAR(again.road_distance, 0.93, 1e-6) << setting;
     EXPECT_EQ(again.distance_history.back().distance, again.road_distance);
   }
 }
@@ -91,11 +93,14 @@ TEST(Nip, AndLoadCalibrateTheShearModulus) {
     const Solution solution = solved(
         plus(roller, {"Road/Load=1500", "Mesh/Radial cells=6", "Mesh/Angular cells=300", setting}));
     const MaterialOptions& material = solution.scene.units.material;
-    EXPECT_NEAR(material.shear_modulus / wanted, 1, 1e-2) << setting;
+    // The load is in proportion to about the square of the nip.
+    const ContactResultants& contact = solution.result.contact;
+    EXPECT_NEAR(material.shear_modulus / wanted, 1,
+                2 * contact.sum(&ContactPatch::length_uncertainty) / contact.length())
+        << setting;
     EXPECT_NEAR(material.density / material.shear_modulus, 1.2e-9 * 2.98 / 4.5, 1e-15) << setting;
-    EXPECT_NEAR(solution.result.contact.loads.vertical * solution.scene.units.of(Quantity::force),
-                1500, 1e-6);
-    EXPECT_NEAR(solution.result.contact.length() * solution.scene.units.length, 14, 0.03);
+    EXPECT_NEAR(contact.loads.vertical * solution.scene.units.of(Quantity::force), 1500, 1e-6);
+    EXPECT_NEAR(contact.length() * solution.scene.units.length, 14, 1e-4);
     EXPECT_NEAR(*solution.result.modulus_ratio, material.shear_modulus * 2.98 / 4.5, 1e-9);
   }
   const Solution fine =

@@ -521,7 +521,7 @@ protected:
                   tolerance * std::abs(wanted))
           << name;
     };
-    expect_near("/contact/half_width", 1, 3e-3);
+    expect_near("/contact/half_width", 1, 1.2e-3);
     expect_near("/contact/force", 2, 1e-4);
     expect_near("/energy/value", 3, 1e-5);
     expect_near("/contact/peak_pressure", 4, 1e-3);

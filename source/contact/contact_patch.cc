@@ -23,6 +23,7 @@ struct Profile {
   std::vector<double> angle;
   Vector<double> gap, pressure;
   const std::vector<double>& cell_ratio;
+  double end_shift; ///< how far an end is behind a node that enters contact, in edges
 
   bool has_node(int i) const { return 0 <= i && i < int(angle.size()); }
 
@@ -34,6 +35,14 @@ struct Profile {
 
   bool zone_is_whole_circle() const {
     return scene.zone_end - scene.zone_begin > 2 * numbers::PI - angular_round_off;
+  }
+
+  /// How far an end is behind the node @p i when this enters contact, an angle.
+  double shift(int i) const {
+    const double edge = angle[i + has_node(i + 1)] - angle[i],
+                 edge_before = angle[i] - angle[i - has_node(i - 1)];
+    const double shortest = edge > 0 && edge_before > 0 ? std::min(edge, edge_before) : 0;
+    return std::min(end_shift * (edge + edge_before) / 2, shortest / 2);
   }
 
   /// The last angle in the direction @p out (-1 or 1) at which contact can end: that of the zone,
@@ -57,13 +66,10 @@ struct PatchEnd {
   bool is_cut = false; ///< by the zone
 };
 
-/// Where the line through (z0, value0^power) and (z1, value1^power) is zero; nullopt unless the
-/// values grow from a positive value0 to value1.
-std::optional<double> root(double z0, double value0, double z1, double value1, double power) {
-  if (!(0 < value0 && value0 < value1))
-    return {};
-  const double ratio = std::pow(value1 / value0, power);
-  return z0 - (z1 - z0) / (ratio - 1);
+/// The x in [0, 1] at which x near / ((1 - x) far_first + x far_last) has the value @p ratio.
+double fraction(double ratio, double near, double far_first, double far_last) {
+  const double denominator = near - ratio * (far_last - far_first);
+  return denominator > 0 ? std::clamp(ratio * far_first / denominator, 0., 1.) : 1;
 }
 
 /// The exponent s of the end laws at distances of @p spacing.
@@ -81,24 +87,31 @@ PatchEnd find_end(const Profile& nodes, int i, int out) {
                            : nodes.has_node(inner) ? z[inner]
                                                    : reach;
   const double edge = std::abs(neighbour - z[i]), s = end_exponent(nodes.scene, edge);
-  std::optional<double> by_gap, by_pressure; // distances from the node i, in edges
-  if (nodes.has_node(far) && nodes.is_over_road(z[far]))
-    by_gap = root(1, nodes.gap[near], std::abs(z[far] - z[i]) / edge, nodes.gap[far], 1 / (1 + s));
-  if (nodes.has_node(inner))
-    by_pressure = root(0, nodes.pressure[i], -std::abs(z[inner] - z[i]) / edge,
-                       nodes.pressure[inner], 1 / (1 - s));
-  // The law of a pressure that is singular at the end of the zone has its root far beyond, or none.
-  if (!nodes.has_node(near) && nodes.is_over_road(reach) && !(by_pressure && *by_pressure < 1))
-    return {reach, 0, edge, !nodes.zone_is_whole_circle()};
-  const double farthest = std::clamp(out * (reach - z[i]) / edge, 0., 1.);
-  const auto guess = [&](const std::optional<double>& distance) {
-    return std::clamp(distance.value_or(0.25), -0.5, farthest);
-  };
-  const double from_gap = guess(by_gap), from_pressure = guess(by_pressure);
-  const double share = by_gap && by_pressure ? 0.25 : 0.5;
-  const double stretch = std::max(1., nodes.cell_ratio[i] / 2);
-  return {z[i] + out * edge * (from_gap + from_pressure) / 2,
-          edge * (share + std::abs(from_gap - from_pressure) / 2) * stretch, edge};
+  const double room = std::abs(reach - z[i]), first = -nodes.shift(i);
+  const auto distance = [&](int k) { return std::abs(z[k] - z[i]); };
+  const double last = nodes.has_node(near) ? edge - nodes.shift(near) : room;
+  const auto pressure_at = [&](double d) { return std::pow(d, 1 - s); };
+  const auto gap_at = [&](double d) { return std::pow(d, 1 + s); };
+
+  std::optional<double> by_pressure, by_gap;
+  if (nodes.has_node(inner) && nodes.pressure[inner] > 0)
+    by_pressure =
+        fraction(nodes.pressure[i] / nodes.pressure[inner], pressure_at(last),
+                 pressure_at(distance(inner) + first), pressure_at(distance(inner) + last));
+  if (nodes.has_node(far) && nodes.is_over_road(z[far]) && nodes.gap[far] > 0)
+    by_gap = fraction(nodes.gap[near] / nodes.gap[far], gap_at(edge - first),
+                      gap_at(distance(far) - last), gap_at(distance(far) - first));
+  if (!nodes.has_node(near)) {
+    // A pressure that is singular at the end of the zone does not fall towards it.
+    if (nodes.is_over_road(reach) && !(by_pressure && *by_pressure < 1))
+      return {reach, 0, edge, !nodes.zone_is_whole_circle()};
+    return {z[i] + out * (first + room) / 2, (room - first) / 2, edge};
+  }
+  const double p = by_pressure.value_or(0.5), g = by_gap.value_or(0.5);
+  const double t = p + g > 0 ? p / (p + g) : 0.5;
+  const double share = (by_pressure && by_gap ? 0.2 : 0.5) + std::abs(1 - p - g) / 2;
+  return {z[i] + out * std::min(first + t * (last - first), room),
+          edge * share * std::max(1., nodes.cell_ratio[i] / 2), edge};
 }
 
 /// The stretches of active nodes: two of them are apart where the gap of a node between them is
@@ -130,14 +143,19 @@ ContactPatch measure_patch(const Profile& nodes, const Vector<double>& force,
     return nodes.road.arc_length(from_lowest_point(to)) -
            nodes.road.arc_length(from_lowest_point(from));
   };
+  // The road is the steeper, the farther out.
+  const double least_begin = std::max(begin.angle - begin.uncertainty, nodes.reach(-1)),
+               largest_end = std::min(end.angle + end.uncertainty, nodes.reach(1));
   ContactPatch patch = {};
   patch.begin = begin.angle;
   patch.begin_uncertainty = begin.uncertainty;
   patch.end = end.angle;
   patch.end_uncertainty = end.uncertainty;
   patch.length = road_between(patch.begin, patch.end);
-  patch.length_uncertainty = road_between(begin.angle, begin.angle + begin.uncertainty) +
-                             road_between(end.angle - end.uncertainty, end.angle);
+  patch.length_uncertainty = std::max(road_between(least_begin, begin.angle),
+                                      road_between(begin.angle, begin.angle + begin.uncertainty)) +
+                             std::max(road_between(end.angle, largest_end),
+                                      road_between(end.angle - end.uncertainty, end.angle));
   for (int i = stretch.first; i <= stretch.last; ++i) {
     patch.force += force(i);
     patch.centroid += force(i) * nodes.angle[i];
@@ -201,7 +219,8 @@ ContactResultants measure_contact(const Scene& scene, const ContactProblem& prob
                      {},
                      problem.gaps(displacement),
                      problem.pressures(force),
-                     problem.cell_ratio};
+                     problem.cell_ratio,
+                     degree == 1 ? 1. / 3 : 1. / 5};
   for (const double x : problem.x)
     profile.angle.push_back(lowest_point + x);
   ContactResultants resultants = {};

@@ -55,16 +55,21 @@ struct ContactResultants {
  * Resultants by the rule [.,.]_h of SurfaceNode and the ends of each patch.
  *
  * Outside of an end, at the distance d, the gap grows like d^(1+s), and inside the pressure like
- * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. So gap^(1/(1+s)) and
- * pressure^(1/(1-s)) are linear in z. The roots of the lines through the first two free nodes and
- * through the last two nodes in contact are two guesses of the end, so that no other node matters.
- * Each is kept within the edge between the last node in contact and the first free one and half an
- * edge before it: a node takes part in contact for its surroundings, and the exact end may lie
- * before it. Where a law does not hold, a quarter of the edge is the guess, which is the mean of
- * many scenes. The end is the middle of both guesses. Its uncertainty is half of their difference
- * and a quarter of the edge, or half of it where a law does not hold; twice as much in cells that
- * are four times as high as wide, and so on, since these see little of what is new at the end.
- * doc/verification.md shows how often that is enough.
+ * d^(1-s), with s = 1/2 below the critical speed and s = 1/3 at it. On a mesh, nodes enter contact
+ * one by one, and between two such events all pressures and gaps are nearly linear in the position
+ * of the end. At an event the end is behind the node that enters, since a node takes part in
+ * contact for its surroundings: by a third of the mean of the edges next to it in linear elements,
+ * and by a fifth in others, as measured. Let i be the last node in contact and t the part of the
+ * way that the end has gone from where i entered to where the next node enters. The laws, taken at
+ * both events, give p = t from the pressure of i over that of the node before it, and g = 1 - t
+ * from the gap of the first free node over that of the second. The end is where t = p / (p + g). So
+ * it depends on these four nodes only, and moves continuously with the road. Where nodes for p or g
+ * are missing, 1/2 takes its place. Where the tangent of a drum comes next to i, the end is the
+ * middle of what is possible. doc/decisions.md has what was tried besides.
+ *
+ * The uncertainty of an end is half of |1 - p - g| and 0.2, in edges, or 0.5 in place of 0.2 where
+ * p or g is missing; twice as much in cells that are four times as high as wide, and so on, since
+ * these see little of what is new at the end. doc/verification.md shows how often that is enough.
  *
  * Where the zone cuts the contact short, the end is the zone's; no end lies beyond the zone or the
  * tangent of a drum.
