@@ -312,18 +312,18 @@ TEST_F(Faults, LimitedAddressSpaceIsEnoughOrTheRunEnds) {
   std::vector<unsigned int> limits = {lots};
   for (unsigned int limit = 440000; limit < 900000; limit += 20000)
     limits.push_back(limit);
-  for (const unsigned int most : limits) {
-    const std::string threads =
-        most == 700000 ? "export OMP_NUM_THREADS=" : "unset OMP_NUM_THREADS";
-    const Outcome outcome = shell("unset OPENBLAS_NUM_THREADS; " + threads + "; ulimit -v " +
-                                  std::to_string(most) + "; timeout -s KILL 60 $rollwave " + scene);
-    const bool is_loaded = outcome.exit_code != 127; // the loader's, without room for libraries
-    if (most == lots) {
-      EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
-    } else if (is_loaded) {
-      EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << most << outcome.text;
+  for (const char* const threads : {"1", "2", ""})
+    for (const unsigned int most : limits) {
+      const Outcome outcome =
+          shell("unset OMP_NUM_THREADS; export OPENBLAS_NUM_THREADS=" + std::string(threads) +
+                "; ulimit -v " + std::to_string(most) + "; timeout -s KILL 60 $rollwave " + scene);
+      const bool is_loaded = outcome.exit_code != 127; // the loader's, without room for libraries
+      if (most == lots && *threads) {
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
+      } else if (is_loaded) {
+        EXPECT_TRUE(outcome.exit_code == 0 || outcome.exit_code == 2) << most << outcome.text;
+      }
     }
-  }
 }
 
 // The dense matrices of some 4000 contact nodes do not fit.

@@ -25,14 +25,15 @@ __attribute__((no_sanitize("address", "undefined"))) bool is_address_space_limit
   return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
-/// True if a buffer of OpenBLAS fits, with the rest of a first call.
-bool has_room_for_blas() {
-  constexpr std::size_t buffer = 160 << 20;
+/// True if the buffers of OpenBLAS for @p n threads fit, with the rest of a first call.
+bool has_room_for_blas(long n) {
+  constexpr std::size_t buffer = 128 << 20, rest = 32 << 20;
+  const std::size_t size = buffer * n + rest;
   void* const room =
-      mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+      mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED)
     return false;
-  munmap(room, buffer);
+  munmap(room, size);
   return true;
 }
 
@@ -49,33 +50,31 @@ __attribute__((no_sanitize("address", "undefined"))) void check_number_of_thread
              1);
 }
 
+/// The number of threads that OpenBLAS starts, at most one for each core.
+__attribute__((no_sanitize("address", "undefined"))) long n_blas_threads() {
+  const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+  for (const char* const variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"})
+    if (const char* const value = std::getenv(variable))
+      if (const long n = std::strtol(value, nullptr, 10); n > 0)
+        return n < cores ? n : cores;
+  return cores;
+}
+
 /// OpenBLAS takes 128 MiB of addresses for each thread in its constructor, and tries for ever if
-/// there are none. Under a limit of the address space the program starts again with one thread,
-/// unless the user has set a number, and ends where that does not fit.
-__attribute__((no_sanitize("address", "undefined"))) void
-fit_blas_into_address_space(char** arguments) {
-  if (!is_address_space_limited())
-    return;
-  const auto is_set = [](const char* variable) {
-    const char* const value = std::getenv(variable);
-    return value && *value;
-  };
-  if (!is_set("OPENBLAS_NUM_THREADS") && !is_set("OMP_NUM_THREADS")) {
-    setenv("OPENBLAS_NUM_THREADS", "1", 1);
-    setenv("OMP_NUM_THREADS", "1", 1);
-    execv("/proc/self/exe", arguments); // since the C library forgets the new variables
-  }
-  if (!has_room_for_blas())
-    end_with("rollwave: not solved: not enough memory; raise the limit of the address space "
+/// there are none.
+__attribute__((no_sanitize("address", "undefined"))) void check_room_for_blas() {
+  if (is_address_space_limited() && !has_room_for_blas(n_blas_threads()))
+    end_with("rollwave: not solved: not enough memory for the threads of OpenBLAS; set the "
+             "environment variable OPENBLAS_NUM_THREADS=1, or raise the limit of the address space "
              "(ulimit -v)\n",
              2);
 }
 
-__attribute__((no_sanitize("address", "undefined"))) void prepare_environment(int, char** arguments,
+__attribute__((no_sanitize("address", "undefined"))) void prepare_environment(int, char**,
                                                                               char** environment) {
   environ = environment; // which the C library has not set yet
   check_number_of_threads();
-  fit_blas_into_address_space(arguments);
+  check_room_for_blas();
 }
 
 /// The loader calls the functions in this section before the constructors of libraries.
@@ -87,7 +86,7 @@ __attribute__((no_sanitize("address", "undefined"))) void prepare_environment(in
 bool take_blas_buffer() {
   if (!is_address_space_limited())
     return true;
-  if (!has_room_for_blas())
+  if (!has_room_for_blas(1))
     return false;
   dealii::LAPACKFullMatrix<double> one(1), square(1);
   one.Tmmult(square, one);
