@@ -1,6 +1,5 @@
 #include "rollwave/error_bound/error_bound.h"
 
-#include "rollwave/base/run_statistics.h"
 #include "rollwave/error_bound/certificate_integrals.h"
 #include "rollwave/error_bound/dual_system.h"
 #include "rollwave/scene/scene.h"
@@ -100,7 +99,6 @@ double bound_of_discrete(double eta, double eta_0, double gap_work, double moved
 Certificate certify(const ContactBoundary& boundary, const Scene& scene,
                     const ContactSolution& contact, const FieldVector& field,
                     const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics) {
-  const RunStatistics::Phase phase(statistics, "certificate");
   const AdmissibleRoad road = admissible_road(boundary, scene);
   const FieldVector displacement = project_contact_nodes(boundary, road, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);
