@@ -28,29 +28,36 @@ namespace rollwave {
 
 namespace {
 
+/// What the parts of a call share.
+struct Call {
+  const CommandLine& line;
+  const Parameters& parameters;
+  std::vector<std::filesystem::path> older_files; ///< in the output directory
+  MPI_Comm communicator;
+  std::ostream& out;
+};
+
 /// The last line of a call that makes a part of a study, with the call that joins the parts.
-void report_part(std::ostream& out, const Study& study, unsigned int n_made,
-                 const std::string& program, const std::filesystem::path& directory) {
-  out << "\nPart " << study.part->number << " of " << study.part->count << ": ";
+void report_part(const Call& call, const Study& study, unsigned int n_made) {
+  call.out << "\nPart " << study.part->number << " of " << study.part->count << ": ";
   if (study.wanted_runs().empty())
-    out << "no runs, since the study has " << study.plans.size();
+    call.out << "no runs, since the study has " << study.plans.size();
   else
-    out << n_made << " runs made, " << study.n_ended() - n_made << " reused";
-  out << ". When all parts have ended, join them with: " << program << ' '
-      << directory / "parameters.prm" << std::endl;
+    call.out << n_made << " runs made, " << study.n_ended() - n_made << " reused";
+  call.out << ". When all parts have ended, join them with: " << call.line.program << ' '
+           << std::filesystem::path(call.parameters.output.directory) / "parameters.prm"
+           << std::endl;
 }
 
-void run_and_report_study(Study& study, const Parameters& parameters,
-                          const std::vector<std::filesystem::path>& older,
-                          const std::string& program, MPI_Comm communicator, std::ostream& out) {
-  out << version_text() << "\n\n";
-  const unsigned int n_made = run_study(study, parameters, out, communicator);
+void run_and_report_study(const Call& call, Study& study) {
+  call.out << version_text() << "\n\n";
+  const unsigned int n_made = run_study(study, call.parameters, call.out, call.communicator);
   if (study.part)
-    report_part(out, study, n_made, program, parameters.output.directory);
-  else if (process_number(communicator) == 0) {
+    report_part(call, study, n_made);
+  else if (process_number(call.communicator) == 0) {
     const std::string text = study_text(study);
-    out << '\n' << text;
-    report_files(out, write_study(parameters, study, text, older));
+    call.out << '\n' << text;
+    report_files(call.out, write_study(call.parameters, study, text, call.older_files));
   }
   if (!study.shortfall.empty())
     throw NotSolved(study.shortfall);
@@ -59,51 +66,50 @@ void run_and_report_study(Study& study, const Parameters& parameters,
         return study.runs[run]->is_solved();
       }))
     throw NotSolved("no run of the study was solved; the first: " +
-                    study.runs[wanted.front()]->failure);
+                    shortfall_text(study.runs[wanted.front()]->notes));
 }
 
 /// Adds the errors to the result, where the exact solution is known.
-void verify(Solution& solution, MPI_Comm communicator, std::ostream& out) {
+void verify(const Call& call, Solution& solution) {
   const Scene& scene = solution.scene;
   const RunStatistics::Phase phase(solution.result.statistics, "verification");
   std::string why;
-  if (const auto exact = find_exact_solution(scene, &why, communicator)) {
+  if (const auto exact = find_exact_solution(scene, &why, call.communicator)) {
     solution.result.errors = measure_true_errors(solution, *exact);
     if (!scene.has_distance())
-      solution.result.errors->exact_distance = find_exact_distance(scene, communicator);
-    report_verification(out, scene, solution.result, *exact,
-                        find_exact_stiffness(scene, communicator));
+      solution.result.errors->exact_distance = find_exact_distance(scene, call.communicator);
+    report_verification(call.out, scene, solution.result, *exact,
+                        find_exact_stiffness(scene, call.communicator));
     for (Note& note : contradicted_guarantees(solution.result, *exact, scene.units)) {
-      out << "Shortfall  " << note.text << '\n';
+      call.out << "Shortfall  " << note.text << '\n';
       solution.result.notes.push_back(std::move(note));
     }
   } else {
     const std::string remark = "no exact solution is known for this scene: " + why;
     solution.result.notes.push_back({Note::Kind::remark, remark});
-    out << "\nNote: " << remark << '\n';
+    call.out << "\nNote: " << remark << '\n';
   }
 }
 
-void solve_scene(const Scene& scene, const Parameters& parameters,
-                 const std::vector<std::filesystem::path>& older, MPI_Comm communicator,
-                 bool verifies, std::ostream& out) {
-  report_scene(out, scene, parameters);
-  if (parameters.study.true_errors)
-    out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
-           "compares a single scene with its exact solution\n";
-  Solution solution = simulate(scene, parameters, communicator, report_progress(out, scene));
-  report_result(out, solution.result, solution.scene.units);
-  const auto& directory = parameters.output.directory;
-  WrittenFiles written = write_results(directory, parameters, solution);
-  if (verifies) { // which may take long
-    attempt([&] { verify(solution, communicator, out); }, "the result could not be verified",
-            "leave out --verify", communicator, solution.result.notes);
+void solve_scene(const Call& call, const Scene& scene) {
+  report_scene(call.out, scene, call.parameters);
+  if (call.parameters.study.true_errors)
+    call.out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
+                "compares a single scene with its exact solution\n";
+  Solution solution =
+      simulate(scene, call.parameters, call.communicator, report_progress(call.out, scene));
+  report_result(call.out, solution.result, solution.scene.units);
+  const auto& directory = call.parameters.output.directory;
+  WrittenFiles written = write_results(directory, call.parameters, solution);
+  if (call.line.verify) { // which may take long
+    attempt([&] { verify(call, solution); }, "the result could not be verified",
+            "leave out --verify", call.communicator, solution.result.notes);
     WrittenFiles again;
-    write_summary(directory, parameters, solution, again);
+    write_summary(directory, call.parameters, solution, again);
   }
-  written.note_older_files(older);
-  report_end(out, solution.result.statistics, written);
-  if (const std::string missed = shortfall_text(solution.result); !missed.empty())
+  written.note_older_files(call.older_files);
+  report_end(call.out, solution.result.statistics, written);
+  if (const std::string missed = shortfall_text(solution.result.notes); !missed.empty())
     throw TargetNotReached(missed);
 }
 
@@ -124,17 +130,18 @@ void run_program(const CommandLine& line, MPI_Comm communicator, std::ostream& o
       study = plan_study(parameters, line.part);
     else
       scene = make_scene(parameters);
-    const auto older = prepare_directory(
-        parameters, is_study ? study_file_names(parameters) : result_file_names(parameters.output),
-        communicator);
+    const auto names =
+        is_study ? study_file_names(parameters) : result_file_names(parameters.output);
+    const Call call = {line, parameters, prepare_directory(parameters, names, communicator),
+                       communicator, out};
     const auto& settings = parameters.settings;
     if (std::all_of(settings.begin(), settings.end(),
                     [](const Setting& setting) { return setting.section == "Output"; }))
       out << "Note: " << line.file.string() << " sets no parameter; solving the default scene\n";
     if (is_study)
-      run_and_report_study(study, parameters, older, line.program, communicator, out);
+      run_and_report_study(call, study);
     else
-      solve_scene(scene, parameters, older, communicator, line.verify, out);
+      solve_scene(call, scene);
   } catch (const BadValue& value) {
     throw BadInput(refusal(parameters.settings, value));
   }

@@ -45,7 +45,7 @@ TEST(ActiveSet, EndsWhereItsSetsWouldCycle) {
   problem.weight = 1;
 
   const ContactSolution solution = active_set(equations, problem, 50, {}, statistics);
-  EXPECT_FALSE(solution.remark.empty());
+  EXPECT_FALSE(solution.notes.empty());
   for (unsigned int i = 0; i < 3; ++i) {
     EXPECT_LE(solution.state.displacement(i), 1e-14);
     EXPECT_GE(solution.state.force(i), -1e-13);
@@ -91,7 +91,7 @@ TEST(ActiveSet, NeedsFewStepsOnStretchedCells) {
     const ContactSolution solution =
         active_set(scene.equations, scene.problem, 50, {}, scene.statistics);
     EXPECT_LE(solution.history.size(), 18u) << cells;
-    EXPECT_TRUE(solution.remark.empty());
+    EXPECT_TRUE(solution.notes.empty());
   }
 }
 
@@ -139,8 +139,8 @@ TEST(Uzawa, RefinesTheCellsThatTheActiveSetRefines) {
       for (unsigned int cycle = 0; cycle < 4; ++cycle) {
         EXPECT_EQ(result.cycles[cycle].n_cells, exact.cycles[cycle].n_cells)
             << "figure " << paper.figure << ' ' << degree << ", cycle " << cycle;
-        EXPECT_NEAR(result.cycles[cycle].indicated, exact.cycles[cycle].indicated,
-                    1e-5 * exact.cycles[cycle].indicated)
+        const double indicated = exact.cycles[cycle].indicated.value_or(0); // none on the last mesh
+        EXPECT_NEAR(result.cycles[cycle].indicated.value_or(0), indicated, 1e-5 * indicated)
             << "figure " << paper.figure << ' ' << degree << ", cycle " << cycle;
       }
     }

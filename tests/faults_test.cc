@@ -200,7 +200,7 @@ TEST_F(Faults, InterruptEndsAfterTheCurrentMesh) {
       return phi(z);
     };
     const Result result = simulate(scene, parameters).result;
-    std::cerr << shortfall_text(result) << " [" << result.cycles.size() << " "
+    std::cerr << shortfall_text(result.notes) << " [" << result.cycles.size() << " "
               << result.history.size() << " " << result.certified.has_value() << "]";
     std::exit(result.is_interrupted ? 2 : 0);
   };

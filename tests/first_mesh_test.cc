@@ -56,7 +56,7 @@ TEST(Refinement, EndsWithoutAFiniteBound) {
                                  "Mesh/Angular cells=24", "Mesh/Wanted relative error=0.02",
                                  "Mesh/Marked fraction=0.01"});
   EXPECT_LE(result.cycles.size(), 40u);
-  EXPECT_NE(shortfall_text(result), "");
+  EXPECT_NE(shortfall_text(result.notes), "");
 }
 
 // Contact through the tangent of a needle, where the bound goes up and down.

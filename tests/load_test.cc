@@ -74,7 +74,7 @@ TEST(Load, IsMetOnEveryMeshAndByEveryMethod) {
         solve_for({"Road/Load=0.02", "Mesh/Radial cells=3", "Mesh/Angular cells=60", setting});
     const double load = solution.scene.load->value;
     EXPECT_NEAR(solution.result.contact.loads.vertical / load, 1, 1e-6) << setting;
-    EXPECT_EQ(shortfall_text(solution.result), "");
+    EXPECT_EQ(shortfall_text(solution.result.notes), "");
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Load, IsMetToNineDigitsOrIsAShortfall) {
         {"Road/Load=" + load, "Mesh/Radial cells=4", "Mesh/Angular cells=60", "Mesh/Degree=1"});
     const double wanted = solution.scene.load->value;
     EXPECT_TRUE(std::abs(solution.result.contact.loads.vertical / wanted - 1) <= 1e-9 ||
-                !shortfall_text(solution.result).empty())
+                !shortfall_text(solution.result.notes).empty())
         << load;
   }
 }
@@ -180,7 +180,7 @@ TEST(Load, IsFoundOnAFinerMeshIfTheFirstOneDoesNotReachIt) {
   const Solution solution = solve_for(adaptive);
   EXPECT_NEAR(solution.result.road_distance, 0.5481, 2e-3);
   EXPECT_NEAR(solution.result.contact.loads.vertical, 0.3705, 1e-9);
-  EXPECT_EQ(shortfall_text(solution.result), "");
+  EXPECT_EQ(shortfall_text(solution.result.notes), "");
   EXPECT_EQ(solution.result.cycles.front().road_distance, solution.scene.least_distance);
   try {
     solve_for(coarse);
@@ -203,8 +203,8 @@ TEST(Load, IsMetByMoreAngularCellsWhereItJumps) {
   coarse.push_back("Mesh/Angular cells=12");
   fine.push_back("Mesh/Angular cells=384");
   const Result jump = solve_for(coarse).result;
-  EXPECT_NE(shortfall_text(jump).find("raise Mesh/Angular cells"), std::string::npos);
-  EXPECT_EQ(shortfall_text(solve_for(fine).result), "");
+  EXPECT_NE(shortfall_text(jump.notes).find("raise Mesh/Angular cells"), std::string::npos);
+  EXPECT_EQ(shortfall_text(solve_for(fine).result.notes), "");
 }
 
 TEST(Load, OutOfReachMayBeInAnotherUnit) {

@@ -202,7 +202,7 @@ def wanted():
                         'Mesh/Wanted relative error': error, 'Output/Files': 'summary'}
             run = scene(name, settings, options=['--verify'])
             rows.append([name, error, run['mesh']['dofs'], len(run['cycles']),
-                         run['error']['certified_relative'], run['error'].get('exact_relative', '-'),
+                         run['error']['certified_relative'], run['error']['exact_relative'] or '-',
                          run['error']['exact_force'] / run['contact']['force'],
                          run['seconds']['total'] - run['seconds']['verification']])
     return [table(['scene', 'wanted', 'unknowns', 'meshes', 'certified', 'true error',
@@ -295,7 +295,7 @@ def phases():
                                  'Output/Files': 'summary, contact, solution'}, repeats=2)
         seconds = run['seconds']
         rows.append([f'Q{degree}', run['mesh']['dofs'],
-                     *[sum(seconds.get(phase, 0.) for phase in group) for group in (
+                     *[sum(seconds[phase] or 0. for phase in group) for group in (
                          ['mesh', 'space'], ['assembly'], ['ordering', 'factorisation'], ['contact'],
                          ['back-substitution', 'measurement'], ['certificate'], ['output'],
                          ['total'])], round(run['peak_memory_mib'])])

@@ -37,7 +37,7 @@ TEST(Nip, GivesBackTheDistanceOfTheExactAnswer) {
     EXPECT_NEAR(solution.result.road_distance, paper.distance, uncertainty / 2) << paper.figure;
     EXPECT_LT(uncertainty, 1e-2) << paper.figure;
     EXPECT_NEAR(solution.result.contact.length(), nip, 1e-6 * nip) << paper.figure;
-    EXPECT_EQ(shortfall_text(solution.result), "") << paper.figure;
+    EXPECT_EQ(shortfall_text(solution.result.notes), "") << paper.figure;
     EXPECT_NEAR(find_exact_distance(solution.scene).value_or(0), paper.distance, 1e-8);
   }
 }

@@ -83,7 +83,7 @@ protected:
     fs::create_directories(directory / "out");
     rollwave::WrittenFiles written;
     rollwave::draw({picture}, directory / "out", rollwave::PictureFormat::svg, written);
-    EXPECT_TRUE(written.remarks.empty()) << written.remarks.front();
+    EXPECT_TRUE(written.notes.empty()) << written.notes.front().text;
     return read(picture.name + ".svg");
   }
 };
@@ -152,7 +152,7 @@ TEST_F(Pictures, PublishedStepsAreMarks) {
 
 TEST_F(Pictures, NumbersThatAreNotKnownLeaveGaps) {
   const std::string picture = drawn(rollwave::plot_panels(
-      "gap", "", {{"x", "y", {{"", {{1, 1}, {2, 2}, {3, NAN}, {4, 1}, {5, 2}}}}}}));
+      "gap", "", {{"x", "y", {{"", {{1, 1}, {2, 2}, {3, {}}, {4, 1}, {5, 2}}}}}}));
   const auto color = picture.find("stroke='rgb(  0, 114, 178)'");
   ASSERT_NE(color, std::string::npos);
   const std::string path = picture.substr(color, picture.find("/>", color) - color);
@@ -325,10 +325,10 @@ TEST_F(Pictures, CurvesTakeThePlaceOfAMapWithFewValuesOfAKey) {
 }
 
 TEST_F(Pictures, MapsHaveAtMostAMegabyte) {
-  std::vector<std::vector<std::array<double, 3>>> lines(300);
+  std::vector<std::vector<rollwave::MapPoint>> lines(300);
   for (unsigned int i = 0; i < lines.size(); ++i)
     for (unsigned int j = 0; j < 400; ++j)
-      lines[i].push_back({{1. * i, 1. * j, std::sin(0.02 * i) * j}});
+      lines[i].push_back({1. * i, 1. * j, std::sin(0.02 * i) * j});
   EXPECT_LT(drawn(rollwave::plot_map("", "x", "y", "value", lines)).size(), 1000000u);
 }
 
@@ -411,10 +411,10 @@ TEST_F(Pictures, HaveTheFormatThatIsGiven) {
 }
 
 TEST_F(Pictures, ContoursOfASmallMapHaveLabels) {
-  std::vector<std::vector<std::array<double, 3>>> lines(3);
+  std::vector<std::vector<rollwave::MapPoint>> lines(3);
   for (const double x : {0., 1., 2.})
     for (const double y : {0., 1., 2.})
-      lines[x].push_back({{x, y, 10000 * (1 + x + y)}});
+      lines[x].push_back({x, y, 10000 * (1 + x + y)});
   const std::string text = drawn(rollwave::plot_map("", "x", "y", "value", lines));
   EXPECT_NE(text.find("e+04</text>"), std::string::npos); // axes and colour box write 30000
 }

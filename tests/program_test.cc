@@ -402,10 +402,10 @@ TEST_F(Program, VerifiesAScene) {
             json["error"]["exact_energy_norm"].get<double>());
   const Outcome unknown = shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=r'");
   EXPECT_EQ(unknown.exit_code, 0) << unknown.text;
-  EXPECT_FALSE(nlohmann::json::parse(read("summary.json"))["error"].contains("exact_relative"));
+  EXPECT_TRUE(nlohmann::json::parse(read("summary.json"))["error"]["exact_relative"].is_null());
   ASSERT_EQ(shell("$rollwave --verify " + scene + " --set 'Cylinder/Radial force=1/2'").exit_code,
             0);
-  EXPECT_TRUE(nlohmann::json::parse(read("summary.json"))["error"].contains("exact_relative"));
+  EXPECT_FALSE(nlohmann::json::parse(read("summary.json"))["error"]["exact_relative"].is_null());
 }
 
 TEST_F(Program, RefinesUntilTheWantedErrorIsCertified) {

@@ -76,7 +76,7 @@ TEST(Quantities, ComeWithTheHistoryOfTheContactSteps) {
     EXPECT_EQ(history["changed"].back(), 0);
     const bool is_uzawa = method == std::string("uzawa");
     EXPECT_EQ(history.contains("residual"), is_uzawa);
-    EXPECT_EQ(iterations.contains("largest_rho"), is_uzawa);
+    EXPECT_EQ(iterations["largest_rho"].is_null(), !is_uzawa);
     if (is_uzawa) {
       EXPECT_LE(history["residual"].back(), parameters.contact.tolerance);
       EXPECT_LT(iterations["rho"], iterations["safe_rho"]);

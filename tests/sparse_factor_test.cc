@@ -308,10 +308,9 @@ TEST(FullContact, HasItsExactForceAtEverySpeed) {
     const Scene scene = full_circle(0.5, 1, omega, -0.1);
     const MeshAndSpace ring(scene, parameters);
     RunStatistics statistics;
-    const System system = make_system(ring.space, scene, scene.zone(), statistics);
-    const MeshSolution solution =
-        solve_on_mesh(system, nullptr, scene, parameters.contact, {}, statistics);
-    EXPECT_EQ(solution.resultants.active_nodes, 24u);
+    const MeshObjects objects = {make_system(ring.space, scene, scene.zone(), statistics)};
+    const MeshSolution solution = solve_on_mesh(objects, scene, parameters.contact, {}, statistics);
+    EXPECT_EQ(solution.result.contact.active_nodes, 24u);
     const Vector<double>& nodal = solution.contact.state.force;
     const double force = nodal.l1_norm();
     EXPECT_NEAR(force, 2 * dealii::numbers::PI * 0.1 / std::log(2), 1e-6);

@@ -39,8 +39,10 @@ RunRecord some_record() {
     record.values[quantity.name] = 1. / (3 + record.values.size());
   record.values.erase("contact.half_width");
   record.reference = "the semi-analytic solution";
-  record.failure = "no \"way\", at\nall";
-  record.remarks = {"\"rough\", or so", "ζ", "\xff"};
+  record.notes = {{Note::Kind::shortfall, "no \"way\", at\nall"},
+                  {Note::Kind::remark, "\"rough\", or so"},
+                  {Note::Kind::remark, "ζ"},
+                  {Note::Kind::remark, "\xff"}};
   record.profile = {{4.5, -0.2, 0}, {4.6, -0.1, 1. / 7}};
   record.files = {{OutputFile::parameters, OutputFile::surface},
                   CellKind::linear,
@@ -56,9 +58,11 @@ TEST(RunRecord, IsReadAsItWasWritten) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->values, record.values);
   EXPECT_EQ(again->reference, record.reference);
-  EXPECT_EQ(again->failure, record.failure);
-  EXPECT_EQ(again->remarks[0], record.remarks[0]);
-  EXPECT_EQ(again->remarks[1], record.remarks[1]);
+  ASSERT_EQ(again->notes.size(), record.notes.size());
+  for (unsigned int i = 0; i < 3; ++i) { // the last one is no UTF-8
+    EXPECT_EQ(again->notes[i].kind, record.notes[i].kind);
+    EXPECT_EQ(again->notes[i].text, record.notes[i].text);
+  }
   EXPECT_EQ(again->profile, record.profile);
   EXPECT_TRUE(again->files.include(record.files) && record.files.include(again->files));
   EXPECT_EQ(again->sizes, record.sizes);
@@ -328,11 +332,12 @@ TEST_F(RepeatedStudy, GoesOnAfterAnExceptionOfALibrary) {
       if (++n_meshes == 3) // the first of the second run
         is_of_library ? throw dealii::ExcMessage("broken") : throw std::runtime_error("broken");
     };
-    StudySolver solver(study.plans, all, directory, progress, MPI_COMM_SELF);
+    StudySolver solver(study.plans, all, progress, MPI_COMM_SELF);
     for (unsigned int run = 0; run < 3; ++run) {
       const RunRecord made = solver.record_of(run, {});
-      EXPECT_EQ(made.is_solved(), run != 1) << made.failure;
-      EXPECT_EQ(made.failure.find("broken") != std::string::npos, run == 1) << made.failure;
+      const std::string failure = shortfall_text(made.notes);
+      EXPECT_EQ(made.is_solved(), run != 1) << failure;
+      EXPECT_EQ(failure.find("broken") != std::string::npos, run == 1) << failure;
     }
   }
 }
@@ -372,6 +377,19 @@ TEST_F(RepeatedStudy, SaysWhatIsShared) {
   EXPECT_EQ(study.runs[0]->shared, "");
   EXPECT_EQ(study.runs[1]->shared, "mesh and matrices");
   EXPECT_EQ(study.runs[1]->values.count("seconds.factorisation"), 0u);
+}
+
+// The modulus is an effective one, and depends on the thickness.
+TEST_F(RepeatedStudy, RemarksOnOneModulusForSeveralThicknesses) {
+  const auto has_remark = [this](const std::string& vary) {
+    run({"Mesh/Degree=1", "Road/Distance=0.95", "Material/Shear modulus=2", "Study/Vary=" + vary});
+    return read("study.txt").find("under one shear modulus") != std::string::npos;
+  };
+  EXPECT_TRUE(has_remark("Cylinder/Inner radius = 0.5 | 0.6"));
+  EXPECT_TRUE(has_remark("Cylinder/Outer radius = 1 | 1.1"));
+  EXPECT_FALSE(has_remark("Road/Distance = 0.8 | 0.9"));
+  EXPECT_FALSE(has_remark("Cylinder/Inner radius & Cylinder/Outer radius = 0.5 & 1 | 0.6 & 1.1"));
+  EXPECT_FALSE(has_remark("Cylinder/Inner radius & Material/Shear modulus = 0.5 & 2 | 0.6 & 3"));
 }
 
 // The distance for a load is compared with the exact one, the other errors with those at its own.

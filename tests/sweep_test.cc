@@ -43,12 +43,11 @@ protected:
     if (!mesh)
       mesh = make_mesh(scene, parameters, MPI_COMM_SELF, statistics);
     if (is_new.system)
-      shared.emplace(SharedObjects{make_system(*mesh->space, scene, scene.zone(), statistics),
-                                   nullptr, nullptr});
+      shared.emplace(MeshObjects{make_system(*mesh->space, scene, scene.zone(), statistics)});
     if (is_new.load)
       shared->load = make_load(shared->system, scene, statistics);
     Solution solution =
-        solve_on_shared(std::move(*mesh), *shared, scene, parameters, std::move(statistics));
+        solve_on_shared({parameters, std::move(*mesh), std::move(statistics)}, *shared, scene);
     mesh = std::move(solution.mesh);
     const Result single = simulate(scene, parameters).result;
     expect_same_answer(solution.result, single);
@@ -56,7 +55,7 @@ protected:
   }
 
   std::optional<Mesh> mesh;
-  std::optional<SharedObjects> shared;
+  std::optional<MeshObjects> shared;
 };
 
 TEST_F(Sweep, RepeatsNoWork) {
@@ -112,7 +111,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
     const RunPlan& plan = study.plans[run];
     SCOPED_TRACE(label(plan, plan.varied));
     const RunRecord& row = *study.runs[run];
-    ASSERT_TRUE(row.is_solved()) << row.failure;
+    ASSERT_TRUE(row.is_solved()) << shortfall_text(row.notes);
     const Scene scene = make_scene(plan.parameters);
     const Result result = simulate(scene, plan.parameters).result;
     const auto single = values_of(result, scene.units);
@@ -126,7 +125,7 @@ void expect_rows_are_single_runs(std::vector<std::string> assignments) {
     expect_near("contact.peak_pressure", 1 + single.at("contact.peak_pressure"));
     EXPECT_LE(row.values.at("energy.lower_bound"), single.at("energy.upper_bound") + 1e-12 * size);
     EXPECT_GE(row.values.at("energy.upper_bound"), single.at("energy.lower_bound") - 1e-12 * size);
-    EXPECT_EQ(row.remarks, texts_of(result.notes, Note::Kind::remark));
+    EXPECT_EQ(texts_of(row.notes, Note::Kind::remark), texts_of(result.notes, Note::Kind::remark));
   }
 }
 

@@ -28,8 +28,10 @@ void WrittenFiles::note_older_files(const std::vector<std::filesystem::path>& ol
   const std::size_t n_names = names.size();
   names.resize(std::min(most, n_names));
   if (n_names > 0)
-    remarks.push_back("older files in this directory: " + boost::algorithm::join(names, ", ") +
-                      (n_names > most ? " and " + std::to_string(n_names - most) + " more" : ""));
+    notes.push_back(
+        {Note::Kind::remark,
+         "older files in this directory: " + boost::algorithm::join(names, ", ") +
+             (n_names > most ? " and " + std::to_string(n_names - most) + " more" : "")});
 }
 
 } // namespace rollwave

@@ -111,7 +111,9 @@ ContactSolution active_set(const ContactEquations& equations, const ContactProbl
       visited.clear();
     } else if (is_repeated) {
       changes_one_by_one = true;
-      solution.remark = "the active set repeated itself; from then on one node changed at a time";
+      solution.notes.push_back(
+          {Note::Kind::remark,
+           "the active set repeated itself; from then on one node changed at a time"});
     }
     if (changes_one_by_one) {
       keep_first_change(solution.active, next);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
 
 namespace rollwave {
@@ -62,8 +63,8 @@ std::string out_of_reach_text(const Scene& scene, const Target& target, const st
 
 /// Load and nip fall as the distance grows: the load by a jump only where a node passes the tangent
 /// of a drum, the nip where a node enters contact.
-std::optional<std::string> missing_text(const Scene& scene, const Target& target,
-                                        const DistanceStep& last, bool is_at_tangent) {
+std::vector<Note> notes_on_miss(const Scene& scene, const Target& target, const DistanceStep& last,
+                                bool is_at_tangent) {
   const double tolerance = target.is_nip() ? 1e-2 : 1e-9, reached = target.of(last),
                unit = scene.units.of(target.quantity);
   if (std::abs(reached - target.wanted) <= tolerance * target.wanted)
@@ -79,7 +80,7 @@ std::optional<std::string> missing_text(const Scene& scene, const Target& target
   else
     text << "the next distance in double precision is no better; change Road/Load, or prescribe "
             "Road/Distance";
-  return text.str();
+  return {{Note::Kind::shortfall, text.str()}};
 }
 
 /// The least distance of a node from the road.
@@ -152,11 +153,10 @@ bool reaches_tangent(const ContactBoundary& boundary, const Road& road,
 }
 
 std::optional<Loads> contact_stiffness(const ContactEquations& equations,
-                                       const ContactBoundary& boundary, const Scene& scene,
-                                       const ContactProblem& problem,
-                                       const ContactSolution& solution, unsigned int most_steps,
-                                       RunStatistics& statistics) {
-  if (reaches_tangent(boundary, problem.road, solution.active))
+                                       const SolvedContact& solved, RunStatistics& statistics) {
+  const ContactProblem& problem = solved.problem;
+  const ContactSolution& solution = solved.contact;
+  if (reaches_tangent(solved.boundary, problem.road, solution.active))
     return {};
   const ContactState rate = rate_of_approach(equations, problem, solution, statistics);
   const Loads fixed = fixed_set_stiffness(problem, solution, rate);
@@ -164,17 +164,19 @@ std::optional<Loads> contact_stiffness(const ContactEquations& equations,
     return fixed;
   // The pattern of nodes at the ends repeats with each cell. Two cells average over it.
   constexpr double n_cells = 2;
-  const double c = scene.road.distance;
-  const unsigned int degree = boundary.space().dof_handler().get_fe().degree;
+  const double c = solved.scene.road.distance;
+  const unsigned int degree = solved.boundary.space().dof_handler().get_fe().degree;
   const double step =
       std::min({approach_of_growth(problem, solution, rate, degree, n_cells) / 2,
                 loads_of(problem, solution.state.force).total / fixed.total / 2, c / 2});
   if (!(step > 1e-10 * c))
     return fixed;
   const auto loads_at = [&](double distance) {
-    const ContactProblem moved = make_contact_problem(boundary, with_distance(scene, distance));
-    const ContactSolution contact = active_set(equations, moved, most_steps,
-                                               problem.pressures(solution.state.force), statistics);
+    const ContactProblem moved =
+        make_contact_problem(solved.boundary, with_distance(solved.scene, distance));
+    constexpr unsigned int no_limit = std::numeric_limits<unsigned int>::max();
+    const ContactSolution contact =
+        active_set(equations, moved, no_limit, problem.pressures(solution.state.force), statistics);
     return loads_of(moved, contact.state.force);
   };
   const Loads near = loads_at(c - step), far = loads_at(c + step);
@@ -234,7 +236,7 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
   else if (reached > wanted && road.distance == range.greatest)
     road.refusal = out_of_reach_text(scene, target, "farthest from", last, is_at_tangent);
   else // both sides are neighbouring numbers
-    road.shortfall = missing_text(scene, target, last, is_at_tangent);
+    road.notes = notes_on_miss(scene, target, last, is_at_tangent);
   return road;
 }
 

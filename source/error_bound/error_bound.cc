@@ -43,7 +43,8 @@ CertifiedError bound_error(const Scene& scene, const CertificateIntegrals& integ
   CertifiedError error = {};
   error.eta = std::sqrt(std::max(double(integrals.bound_squared), 0.));
   error.force_data = force ? force->error() : 0;
-  error.sampled_width = force ? force->scan_width() : 0;
+  if (force)
+    error.sampled_width = force->scan_width();
   error.norm_squared = integrals.norm_squared;
   error.energy_norm = error.relative = error.upper_bound = infinity;
   error.lower_bound = -infinity;
@@ -96,9 +97,9 @@ double bound_of_discrete(double eta, double eta_0, double gap_work, double moved
   return eta * std::cos(low) + moved;
 }
 
-Certificate certify(const ContactBoundary& boundary, const Scene& scene,
-                    const ContactSolution& contact, const FieldVector& field,
+Certificate certify(const SolvedContact& solved, const FieldVector& field,
                     const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics) {
+  const auto& [scene, boundary, problem, contact] = solved;
   const AdmissibleRoad road = admissible_road(boundary, scene);
   const FieldVector displacement = project_contact_nodes(boundary, road, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);

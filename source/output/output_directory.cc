@@ -54,7 +54,8 @@ void write_parameters(const fs::path& directory, const Parameters& parameters,
                       WrittenFiles& written) {
   const fs::path path = directory / "parameters.prm";
   if (is_input(parameters, path)) {
-    written.remarks.push_back("parameters.prm is the file that was read, and is left as it is");
+    written.notes.push_back(
+        {Note::Kind::remark, "parameters.prm is the file that was read, and is left as it is"});
     return;
   }
   std::ostringstream text;

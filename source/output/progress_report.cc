@@ -37,8 +37,7 @@ Progress report_progress(std::ostream& out, const Scene& scene) {
           << (has_load ? "   distance c" : "vertical load") << units.in_brackets(quantity)
           << (has_load ? "" : "  guaranteed +-") << "  indicated error"
           << units.in_brackets(Quantity::energy_norm) << '\n';
-    const double indicated = mesh.indicated * units.of(Quantity::energy_norm),
-                 result = (has_load ? mesh.road_distance : mesh.vertical_load) * units.of(quantity);
+    const double result = (has_load ? mesh.road_distance : mesh.vertical_load) * units.of(quantity);
     out << std::setw(5) << number << std::setw(9) << mesh.n_cells << std::setw(9) << mesh.n_unknowns
         << std::setw(7) << mesh.contact_steps << std::setw(11)
         << (mesh.certified ? rounded_up(*mesh.certified, 3) : "-") << std::setw(15)
@@ -48,7 +47,9 @@ Progress report_progress(std::ostream& out, const Scene& scene) {
           << (mesh.load_half_width
                   ? rounded_up(*mesh.load_half_width * units.of(Quantity::force), 3)
                   : "-");
-    out << std::setw(17) << (mesh.indicated > 0 ? rounded(indicated, 3) : "-") << '\n'
+    out << std::setw(17)
+        << (mesh.indicated ? rounded(*mesh.indicated * units.of(Quantity::energy_norm), 3) : "-")
+        << '\n'
         << std::flush;
   };
   return progress;

@@ -103,9 +103,10 @@ WrittenFiles write_results(const std::filesystem::path& directory, const Paramet
     }
     if ((parameters.wants(OutputFile::solution) || parameters.wants(OutputFile::surface)) &&
         !fits_single_precision(scene.units))
-      written.remarks.push_back(
-          "VTU files hold numbers of single precision, up to 3e38, and have lost some here; "
-          "choose other units, or see contact.csv and summary.json");
+      written.notes.push_back(
+          {Note::Kind::remark,
+           "VTU files hold numbers of single precision, up to 3e38, and have lost some here; "
+           "choose other units, or see contact.csv and summary.json"});
   }
   result.statistics.bytes_written += written.n_bytes;
   write_summary(directory, parameters, solution, written);

@@ -74,7 +74,7 @@ std::string title_of(const Scene& scene, const Parameters& parameters, const Res
                                     {"peak pressure", "contact.peak_pressure"}}) {
     const ResultQuantity& quantity = result_quantity(name);
     const auto value = quantity.in_users_units(result, units);
-    if (value && std::isfinite(*value))
+    if (value)
       results += std::string(words) + " = " + rounded(*value, digits) +
                  units.after(quantity.quantity) + ", ";
   }

@@ -115,9 +115,9 @@ void report_certificate(std::ostream& out, const Result& result, const Units& un
     out << "           J(u_h) is " << rounded(outside * units.of(Quantity::energy), 2)
         << units.after(Quantity::energy)
         << " outside of these bounds, which hold for the exact J(u)\n";
-  if (certified.sampled_width > 0)
+  if (certified.sampled_width)
     out << "           features of the force smaller than "
-        << certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
+        << *certified.sampled_width * units.of(Quantity::length) << units.after(Quantity::length)
         << " may be undetected\n";
 }
 
@@ -158,7 +158,7 @@ void report_quantities(std::ostream& out, const Result& result, const Units& uni
   constexpr unsigned int width = 32; // of words and symbol
   for (const ResultQuantity& quantity : result_quantities()) {
     const auto value = quantity.in_users_units(result, units);
-    if (!(quantity.shown & Shown::screen) || !value || std::isnan(*value))
+    if (!(quantity.shown & Shown::screen) || !value)
       continue;
     const double uncertainty = uncertainty_of(quantity.name, result, units).value_or(0);
     const std::string text =
@@ -244,7 +244,7 @@ void report_result(std::ostream& out, const Result& result, const Units& units) 
   }
   if (result.certified)
     report_certificate(out, result, units);
-  if (const std::string missed = shortfall_text(result); !missed.empty())
+  if (const std::string missed = shortfall_text(result.notes); !missed.empty())
     out << "Shortfall  " << missed << '\n';
   report_residuals(out, result);
 }
@@ -254,8 +254,8 @@ void report_files(std::ostream& out, const WrittenFiles& written) {
     out << "\nFiles\n";
   for (const auto& file : written.files)
     out << "  " << file.string() << '\n';
-  for (const std::string& remark : written.remarks)
-    out << "Note: " << remark << '\n';
+  for (const Note& note : written.notes)
+    out << "Note: " << note.text << '\n';
   if (const std::string picture = first_file(written, {".svg", ".png", ".pdf"}); !picture.empty()) {
     const std::string field = first_file(written, {"study.pvd", "solution.vtu"}); // one of them
     out << "Look first at " << picture << (field.empty() ? "" : "; in ParaView open ") << field

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace rollwave {
 
@@ -34,18 +35,20 @@ Json scene_json(const Scene& scene, const RunOptions& options) {
   return json;
 }
 
-/// Numbers that are not finite become null.
+/// null for a number that is not known.
+Json json_of(std::optional<double> number, double unit = 1) {
+  return number ? Json(*number * unit) : Json();
+}
+
 void add_quantities(const Result& result, const Units& units, Json& json) {
-  for (const ResultQuantity& quantity : result_quantities())
-    if (const auto value = quantity.in_users_units(result, units)) {
-      std::string path = '/' + quantity.name;
-      std::replace(path.begin(), path.end(), '.', '/');
-      Json& entry = json[Json::json_pointer(path)];
-      if (quantity.quantity == Quantity::count)
-        entry = static_cast<long>(*value);
-      else
-        entry = *value;
-    }
+  for (const ResultQuantity& quantity : result_quantities()) {
+    const auto value = quantity.in_users_units(result, units);
+    std::string path = '/' + quantity.name;
+    std::replace(path.begin(), path.end(), '.', '/');
+    json[Json::json_pointer(path)] = value && quantity.quantity == Quantity::count
+                                         ? Json(static_cast<long>(*value))
+                                         : json_of(value);
+  }
 }
 
 Json patches_json(const Result& result, const Units& units) {
@@ -65,19 +68,14 @@ Json patches_json(const Result& result, const Units& units) {
 
 Json cycles_json(const Result& result, const Units& units) {
   Json json = Json::array();
-  for (const CycleFigures& cycle : result.cycles) {
+  for (const CycleFigures& cycle : result.cycles)
     json.push_back({{"cells", cycle.n_cells},
                     {"dofs", cycle.n_unknowns},
                     {"contact_steps", cycle.contact_steps},
                     {"road_distance", cycle.road_distance * units.of(Quantity::length)},
                     {"vertical_load", cycle.vertical_load * units.of(Quantity::force)},
-                    {"indicated_error", nullptr},
-                    {"certified_relative", nullptr}});
-    if (cycle.indicated > 0)
-      json.back()["indicated_error"] = cycle.indicated * units.of(Quantity::energy_norm);
-    if (cycle.certified)
-      json.back()["certified_relative"] = *cycle.certified;
-  }
+                    {"indicated_error", json_of(cycle.indicated, units.of(Quantity::energy_norm))},
+                    {"certified_relative", json_of(cycle.certified)}});
   return json;
 }
 
@@ -98,7 +96,7 @@ Json history_json(const Result& result) {
 std::string summary_json(const Scene& scene, const RunOptions& options, const Result& result) {
   Json json;
   json["program"] = version_text();
-  if (const std::string missed = shortfall_text(result); !missed.empty())
+  if (const std::string missed = shortfall_text(result.notes); !missed.empty())
     json["shortfall"] = missed;
   if (const auto remarks = texts_of(result.notes, Note::Kind::remark); !remarks.empty())
     json["remarks"] = remarks;

@@ -140,11 +140,12 @@ void draw(const std::vector<Picture>& pictures, const fs::path& directory, Pictu
       written.n_bytes += file.commit();
       written.files.push_back(directory / name);
     } else
-      written.remarks.push_back(name + " was not drawn: gnuplot has " +
-                                (timer.wall_time() > most_seconds
-                                     ? "taken more than a minute"
-                                     : "failed: " + printable(trimmed(messages))) +
-                                "; its script is " + script);
+      written.notes.push_back(
+          {Note::Kind::remark,
+           name + " was not drawn: gnuplot has " +
+               (timer.wall_time() > most_seconds ? "taken more than a minute"
+                                                 : "failed: " + printable(trimmed(messages))) +
+               "; its script is " + script});
   }
 }
 

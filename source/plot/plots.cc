@@ -16,9 +16,9 @@ namespace {
 const std::vector<std::string> colours = {"#0072b2", "#d55e00", "#009e73",
                                           "#cc79a7", "#000000", "#e69f00"};
 
-/// With all digits that a picture can show.
-std::string plotted(double number) {
-  return std::isnan(number) ? "NaN" : rounded(number, 9);
+/// With all digits that a picture can show; gnuplot's word for a number that is not known.
+std::string plotted(std::optional<double> number) {
+  return number ? rounded(*number, 9) : "NaN";
 }
 
 /// The name of the data of curve @p i in panel @p k.
@@ -27,9 +27,9 @@ std::string block(unsigned int k, unsigned int i) {
 }
 
 /// True if any point of the curve has the number.
-bool has(const Curve& curve, double CurvePoint::*number) {
+bool has(const Curve& curve, std::optional<double> CurvePoint::*number) {
   return std::any_of(curve.points.begin(), curve.points.end(),
-                     [number](const CurvePoint& point) { return !std::isnan(point.*number); });
+                     [number](const CurvePoint& point) { return (point.*number).has_value(); });
 }
 
 /// The data of a curve: x and y; then, if any point has them, interval and mark.
@@ -51,7 +51,7 @@ double below(const std::vector<Curve>& curves, double slope) {
   for (const Curve& curve : curves)
     for (const CurvePoint& point : curve.points)
       if (point.x > 0 && point.y > 0)
-        least = std::min(least, point.y / std::pow(point.x, slope));
+        least = std::min(least, *point.y / std::pow(point.x, slope));
   return least / 2;
 }
 
@@ -71,10 +71,10 @@ std::string y_range(const Panel& panel) {
   double least = std::numeric_limits<double>::max(), largest = -least;
   for (const Curve& curve : panel.curves)
     for (const CurvePoint& point : curve.points)
-      for (const double y : {point.y, point.lower, point.upper, point.mark})
-        if (!std::isnan(y)) {
-          least = std::min(least, y);
-          largest = std::max(largest, y);
+      for (const auto& y : {point.y, point.lower, point.upper, point.mark})
+        if (y) {
+          least = std::min(least, *y);
+          largest = std::max(largest, *y);
         }
   const double span = 0.01 * std::max(std::abs(least), std::abs(largest)),
                middle = least + (largest - least) / 2;
@@ -203,8 +203,7 @@ std::string has_room(const std::string& column, const std::vector<double>& ends,
 } // namespace
 
 Picture plot_map(std::string title, const std::string& x_label, const std::string& y_label,
-                 const std::string& value_label,
-                 const std::vector<std::vector<std::array<double, 3>>>& lines) {
+                 const std::string& value_label, const std::vector<std::vector<MapPoint>>& lines) {
   constexpr unsigned int most_cells = 70, width = 800;
   const auto of_x = spread(lines.size(), most_cells), of_y = spread(lines[0].size(), most_cells);
   if (of_x.size() < lines.size() || of_y.size() < lines[0].size())
@@ -212,17 +211,18 @@ Picture plot_map(std::string title, const std::string& x_label, const std::strin
              std::to_string(lines.size()) + " x " + std::to_string(lines[0].size()) + " runs";
   std::vector<double> x, y;
   for (const unsigned int i : of_x)
-    x.push_back(lines[i][0][0]);
+    x.push_back(lines[i][0].x);
   for (const unsigned int j : of_y)
-    y.push_back(lines[0][j][1]);
+    y.push_back(lines[0][j].y);
   const auto x_ends = ends_of_cells(x), y_ends = ends_of_cells(y);
   std::ostringstream script;
   script << "$map << EOD\n";
   for (unsigned int i = 0; i < x.size(); ++i) {
     for (unsigned int j = 0; j < y.size(); ++j)
-      script << plotted(x[i]) << ' ' << plotted(y[j]) << ' ' << plotted(lines[of_x[i]][of_y[j]][2])
-             << ' ' << plotted(x_ends[i]) << ' ' << plotted(x_ends[i + 1]) << ' '
-             << plotted(y_ends[j]) << ' ' << plotted(y_ends[j + 1]) << '\n';
+      script << plotted(x[i]) << ' ' << plotted(y[j]) << ' '
+             << plotted(lines[of_x[i]][of_y[j]].value) << ' ' << plotted(x_ends[i]) << ' '
+             << plotted(x_ends[i + 1]) << ' ' << plotted(y_ends[j]) << ' ' << plotted(y_ends[j + 1])
+             << '\n';
     script << '\n';
   }
   // Of the points of a contour some have a label, if they are off the axes.

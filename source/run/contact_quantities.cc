@@ -48,21 +48,23 @@ void add_loads(Quantities& all) {
                  [](const Result& r) { return r.contact.loads.total; }},
                 &LoadBounds::total);
   all.push_back({"contact.work_conjugate_load", "work-conjugate load", "G", Quantity::force,
-                 Shown::screen, all_digits, [](const Result& r) {
-                   return r.contact.loads.work_conjugate.value_or(not_known);
-                 }});
+                 Shown::screen, all_digits,
+                 [](const Result& r) { return r.contact.loads.work_conjugate; }});
 }
 
 void add_stiffness(Quantities& all) {
   const auto add = [&all](const char* name, const char* words, unsigned int shown,
                           double (*number)(const Loads&)) {
-    const Value stiffness = [number](const Result& r) {
-      return r.contact.stiffness ? number(*r.contact.stiffness) : not_known;
+    const auto stiffness = [number](const Result& r) {
+      return r.contact.stiffness ? std::optional(number(*r.contact.stiffness)) : std::nullopt;
     };
-    add_estimated(all, {name, words, "", Quantity::stiffness, shown, 4, stiffness},
-                  [stiffness](const Result& r) {
-                    return *stiffness(r) * r.contact.relative_stiffness_uncertainty;
-                  });
+    const auto uncertainty = [stiffness](const Result& r) {
+      auto value = stiffness(r);
+      if (value)
+        *value *= r.contact.relative_stiffness_uncertainty;
+      return value;
+    };
+    add_estimated(all, {name, words, "", Quantity::stiffness, shown, 4, stiffness}, uncertainty);
   };
   add("contact.stiffness.vertical_load", "vertical stiffness",
       Shown::screen | Shown::curve | Shown::scene_table,
@@ -74,15 +76,14 @@ void add_stiffness(Quantities& all) {
 }
 
 void add_pressure_and_ends(Quantities& all) {
-  add_estimated(
-      all,
-      {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
-       Shown::screen | Shown::curve | Shown::scene_table, 5,
-       [](const Result& r) { return r.contact.peak_pressure; }},
-      [](const Result& r) { return r.contact.peak_pressure_uncertainty.value_or(not_known); });
+  add_estimated(all,
+                {"contact.peak_pressure", "peak pressure", "", Quantity::pressure,
+                 Shown::screen | Shown::curve | Shown::scene_table, 5,
+                 [](const Result& r) { return r.contact.peak_pressure; }},
+                [](const Result& r) { return r.contact.peak_pressure_uncertainty; });
   const auto if_one_patch = [](double (ContactPatch::*number)() const) {
     return [number](const Result& r) {
-      return r.contact.patches.size() < 2 ? r.contact.sum(number) : not_known;
+      return r.contact.patches.size() < 2 ? std::optional(r.contact.sum(number)) : std::nullopt;
     };
   };
   add_estimated(all,
@@ -90,9 +91,11 @@ void add_pressure_and_ends(Quantities& all) {
                  all_digits, if_one_patch(&ContactPatch::half_width)},
                 if_one_patch(&ContactPatch::half_width_uncertainty));
   const auto if_contact = [](double ContactPatch::*number, bool is_left) {
-    return [number, is_left](const Result& r) {
+    return [number, is_left](const Result& r) -> std::optional<double> {
       const auto& patches = r.contact.patches;
-      return patches.empty() ? not_known : (is_left ? patches.front() : patches.back()).*number;
+      if (patches.empty())
+        return {};
+      return (is_left ? patches.front() : patches.back()).*number;
     };
   };
   add_estimated(all,

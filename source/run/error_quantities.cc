@@ -25,12 +25,7 @@ Quantities energy_quantities() {
       {"error.force_data", "share of the force expression in the bound", "", Quantity::energy_norm,
        0, 3, optional_member(&Result::certified, &CertifiedError::force_data)},
       {"error.force_sampled_width", "width below which features of the force may be undetected", "",
-       Quantity::length, 0, 3,
-       [](const Result& r) -> std::optional<double> {
-         if (!r.certified)
-           return {};
-         return r.certified->sampled_width > 0 ? r.certified->sampled_width : not_known;
-       }},
+       Quantity::length, 0, 3, optional_member(&Result::certified, &CertifiedError::sampled_width)},
   };
 }
 

@@ -102,8 +102,10 @@ std::optional<double> number_if_known(const std::string& name, const Result& res
 
 std::optional<double> ResultQuantity::in_users_units(const Result& result,
                                                      const Units& units) const {
-  const std::optional<double> number = value(result);
-  return number ? std::optional(*number * units.of(quantity)) : std::nullopt;
+  std::optional<double> number = value(result);
+  if (number)
+    *number *= units.of(quantity);
+  return number && std::isfinite(*number) ? number : std::nullopt;
 }
 
 std::string ResultQuantity::text(double number, std::optional<double> uncertainty) const {
@@ -141,8 +143,7 @@ std::optional<Interval> guaranteed_interval(const std::string& name, const Resul
                                             const Units& units) {
   const auto lower = number_if_known(name + "_lower_bound", result, units),
              upper = number_if_known(name + "_upper_bound", result, units);
-  return lower && upper && std::isfinite(*upper - *lower) ? std::optional(Interval{*lower, *upper})
-                                                          : std::nullopt;
+  return lower && upper ? std::optional(Interval{*lower, *upper}) : std::nullopt;
 }
 
 } // namespace rollwave

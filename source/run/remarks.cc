@@ -198,7 +198,7 @@ std::vector<Note> notes_on(const RunOptions& options, const Mesh& mesh,
   if (const std::string missed = shortfall_of_error(options, mesh, result); !missed.empty())
     notes.push_back({Note::Kind::shortfall, missed});
   else if (const std::string inexact = shortfall_of_residuals(options, result.residuals);
-           !inexact.empty() && shortfall_text(result).empty())
+           !inexact.empty() && shortfall_text(result.notes).empty())
     notes.push_back({Note::Kind::shortfall, inexact});
   return notes;
 }

@@ -8,12 +8,10 @@
 #include "rollwave/contact/load_control.h"
 #include "rollwave/mesh/ring_mesh.h"
 #include "rollwave/run/attempt.h"
-#include "rollwave/run/make_result.h"
-#include "rollwave/run/solve_on_mesh.h"
+#include "rollwave/run/finish.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -39,35 +37,33 @@ void check_simulation(const Scene& scene, const RunOptions& options) {
 namespace {
 
 /// The certificate of a solution, where it is wanted and does not fail.
-/// @param dual is made if it is not there yet
-std::optional<Certificate> certify_solution(const RunOptions& options, const Load* load,
-                                            std::unique_ptr<const DualSystem>& dual,
-                                            MeshSolution& solution, RunStatistics& statistics) {
+/// @param objects with the dual system, which is made if it is not there yet
+std::optional<Certificate> certify_solution(Run& run, MeshObjects& objects,
+                                            MeshSolution& solution) {
   std::optional<Certificate> certificate;
-  if (!options.certificate.error_bound)
+  if (!run.options.certificate.error_bound)
     return certificate;
-  const RunStatistics::Phase phase(statistics, "certificate");
+  const RunStatistics::Phase phase(run.statistics, "certificate");
   const RingSpace& space = solution.boundary.space();
   attempt(
       [&] {
-        if (!dual)
-          dual = std::make_unique<DualSystem>(space, solution.scene, statistics);
-        certificate =
-            certify(solution.boundary, solution.scene, solution.contact, solution.displacement,
-                    load ? &load->integral : nullptr, *dual, statistics);
+        if (!objects.dual)
+          objects.dual = std::make_unique<DualSystem>(space, solution.scene, run.statistics);
+        certificate = certify(solution, solution.displacement,
+                              objects.load ? &objects.load->integral : nullptr, *objects.dual,
+                              run.statistics);
       },
       "the error could not be certified",
       "use fewer unknowns, or set Certificate/Error bound to false", space.communicator(),
-      solution.notes);
+      solution.result.notes);
   return certificate;
 }
 
 /// eta_K of each active cell by Mesh/Indicator; Kelly's if there is no certificate.
-std::vector<double> cell_indicators(const RunOptions& options, const MeshSolution& solution,
-                                    const std::optional<Certificate>& certificate,
-                                    RunStatistics& statistics) {
-  const RunStatistics::Phase phase(statistics, "indicator");
-  if (certificate && options.mesh.indicator == Indicator::certificate)
+std::vector<double> cell_indicators(Run& run, const MeshSolution& solution,
+                                    const std::optional<Certificate>& certificate) {
+  const RunStatistics::Phase phase(run.statistics, "indicator");
+  if (certificate && run.options.mesh.indicator == Indicator::certificate)
     return certificate->cell_bounds;
   return kelly_indicator(solution.boundary.space(), solution.displacement);
 }
@@ -91,12 +87,8 @@ CycleFigures describe_cycle(const RingSpace& space, const MeshSolution& solution
                             const std::optional<Certificate>& certificate) {
   CycleFigures cycle = {
       static_cast<unsigned int>(space.dof_handler().get_triangulation().n_global_active_cells()),
-      space.n_unknowns(),
-      static_cast<unsigned int>(solution.contact.history.size()),
-      solution.scene.road.distance,
-      solution.resultants.loads.vertical,
-      0,
-      {}};
+      space.n_unknowns(), static_cast<unsigned int>(solution.result.history.size()),
+      solution.scene.road.distance, solution.result.contact.loads.vertical};
   if (certificate) {
     cycle.certified = certificate->error.relative;
     const Interval& load = certificate->error.loads.vertical;
@@ -130,11 +122,11 @@ bool has_stalled(const RunOptions& options, const std::vector<CycleFigures>& cyc
 
 /// True if no further mesh is needed or allowed: the wanted error is reached, or will not be, the
 /// cycles are used up, or the certificate has failed.
-bool is_last(const RunOptions& options, const std::optional<Certificate>& certificate,
-             const std::vector<CycleFigures>& cycles, unsigned int most_refinements) {
-  const bool has_failed = options.certificate.error_bound && !certificate;
-  return has_failed || cycles.size() > most_refinements || is_reached(options, certificate) ||
-         has_stalled(options, cycles);
+bool is_last(const Run& run, const std::optional<Certificate>& certificate,
+             unsigned int most_refinements) {
+  const bool has_failed = run.options.certificate.error_bound && !certificate;
+  return has_failed || run.cycles.size() > most_refinements ||
+         is_reached(run.options, certificate) || has_stalled(run.options, run.cycles);
 }
 
 std::string interrupted_text(unsigned int n_meshes) {
@@ -142,69 +134,54 @@ std::string interrupted_text(unsigned int n_meshes) {
 }
 
 /// Computes the stiffness of the loads, where the mesh resolves it.
-void add_stiffness(const System& system, const Load* load, MeshSolution& solution,
-                   RunStatistics& statistics) {
-  constexpr unsigned int no_limit = std::numeric_limits<unsigned int>::max();
+void add_stiffness(const MeshObjects& objects, MeshSolution& solution, RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "measurement");
   attempt(
       [&] {
-        solution.resultants.stiffness = contact_stiffness(
-            contact_equations(system, load, solution.boundary), solution.boundary, solution.scene,
-            solution.problem, solution.contact, no_limit, statistics);
+        solution.result.contact.stiffness = contact_stiffness(
+            contact_equations(objects.system, objects.load.get(), solution.boundary), solution,
+            statistics);
       },
       "the stiffness could not be computed", "use cells that are less stretched",
-      solution.boundary.space().communicator(), solution.notes);
-}
-
-/// The solution of a run from that on its last mesh. @throws BadValue for a load or a nip out of
-/// reach
-Solution finish(const RunOptions& options, Mesh mesh, MeshSolution last,
-                std::optional<Certificate> certificate, std::vector<CycleFigures> cycles,
-                bool is_interrupted, RunStatistics statistics) {
-  if (last.road_refusal)
-    throw BadValue("Road", last.scene.nip ? "Nip" : "Load", *last.road_refusal);
-  Result result = make_result(options, mesh, last, certificate, std::move(cycles), is_interrupted,
-                              std::move(statistics));
-  return {last.scene, std::move(mesh), std::move(last.displacement), std::move(certificate),
-          std::move(result)};
+      solution.boundary.space().communicator(), solution.result.notes);
 }
 
 /// Solves, certifies and refines until the wanted error is reached, or cannot be.
-Solution solve_and_refine(Mesh mesh, Scene scene, const RunOptions& options,
-                          unsigned int most_refinements, RunStatistics statistics,
-                          const Progress& progress, std::vector<CycleFigures>& cycles) {
+/// @param run with its first mesh
+LastSolution solve_and_refine(Run& run, Scene scene, unsigned int most_refinements,
+                              const Progress& progress) {
+  const RunOptions& options = run.options;
   PressureProfile pressure; // on the mesh before
   for (;;) {
-    System system = make_system(*mesh.space, scene, scene.zone(), statistics);
-    const std::unique_ptr<const Load> load = make_load(system, scene, statistics);
-    MeshSolution solution = solve_on_mesh(system, load.get(), scene, options.contact, pressure,
-                                          statistics, progress.contact_step_ended);
-    system.factor.reset(); // the certificate needs its memory
-    system.condensed->free_factors();
-    std::unique_ptr<const DualSystem> dual;
-    std::optional<Certificate> certificate =
-        certify_solution(options, load.get(), dual, solution, statistics);
-    dual.reset();
-    cycles.push_back(describe_cycle(*mesh.space, solution, certificate));
+    MeshObjects objects = {make_system(*run.mesh.space, scene, scene.zone(), run.statistics)};
+    objects.load = make_load(objects.system, scene, run.statistics);
+    MeshSolution solution = solve_on_mesh(objects, scene, options.contact, pressure, run.statistics,
+                                          progress.contact_step_ended);
+    objects.system.factor.reset(); // the certificate needs its memory
+    objects.system.condensed->free_factors();
+    std::optional<Certificate> certificate = certify_solution(run, objects, solution);
+    objects.dual.reset();
+    run.cycles.push_back(describe_cycle(*run.mesh.space, solution, certificate));
+    CycleFigures& cycle = run.cycles.back();
 
-    const bool ends = is_last(options, certificate, cycles, most_refinements);
-    const bool is_stopped = !ends && is_interrupted(mesh.communicator());
+    const bool ends = is_last(run, certificate, most_refinements);
+    const bool is_stopped = !ends && is_interrupted(run.mesh.communicator());
     if (is_stopped)
-      solution.notes.push_back({Note::Kind::shortfall, interrupted_text(cycles.size())});
+      solution.result.notes.push_back({Note::Kind::shortfall, interrupted_text(run.cycles.size())});
     bool goes_on = !ends && !is_stopped;
     if (goes_on) {
       scene = solution.scene;
       pressure = pressure_profile(solution);
-      const auto indicators = cell_indicators(options, solution, certificate, statistics);
-      cycles.back().indicated = l2_norm(indicators, mesh.communicator());
-      goes_on = refine(mesh, indicators, goal_of(options, certificate), scene, options, statistics);
+      const auto indicators = cell_indicators(run, solution, certificate);
+      cycle.indicated = l2_norm(indicators, run.mesh.communicator());
+      goes_on = refine(run.mesh, indicators, goal_of(options, certificate), scene, options,
+                       run.statistics);
     }
-    if (progress.mesh_solved && (goes_on || cycles.size() > 1))
-      progress.mesh_solved(cycles.size(), cycles.back());
+    if (progress.mesh_solved && (goes_on || run.cycles.size() > 1))
+      progress.mesh_solved(run.cycles.size(), cycle);
     if (!goes_on) {
-      add_stiffness(system, load.get(), solution, statistics);
-      return finish(options, std::move(mesh), std::move(solution), std::move(certificate), cycles,
-                    is_stopped, std::move(statistics));
+      add_stiffness(objects, solution, run.statistics);
+      return {std::move(solution), std::move(certificate), is_stopped};
     }
   }
 }
@@ -222,9 +199,9 @@ Solution solve_best(Solution last, const Scene& scene, const RunOptions& options
   RunStatistics statistics = std::move(last.result.statistics);
   { const Solution freed = std::move(last); }
   Mesh mesh = make_mesh(scene, options, communicator, statistics);
-  std::vector<CycleFigures> again;
-  Solution solution =
-      solve_and_refine(std::move(mesh), scene, options, best, std::move(statistics), {}, again);
+  Run run = {options, std::move(mesh), std::move(statistics)};
+  LastSolution on_best = solve_and_refine(run, scene, best, {});
+  Solution solution = finish(std::move(run), std::move(on_best));
   solution.result.notes.push_back(
       {Note::Kind::remark, "further meshes had larger bounds, up to " +
                                rounded(*cycles.back().certified, 3) + " on mesh " +
@@ -242,33 +219,27 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
   Mesh mesh = make_mesh(scene, options, communicator, statistics);
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
-  std::vector<CycleFigures> cycles;
+  Run run = {options, std::move(mesh), std::move(statistics)};
   try {
-    return solve_best(solve_and_refine(std::move(mesh), scene, options, most_cycles(options.mesh),
-                                       std::move(statistics), progress, cycles),
-                      scene, options);
+    LastSolution last = solve_and_refine(run, scene, most_cycles(options.mesh), progress);
+    return solve_best(finish(std::move(run), std::move(last)), scene, options);
   } catch (const NotEnoughMemory& shortage) {
-    if (cycles.empty())
+    if (run.cycles.empty())
       throw;
-    const std::string solved = std::to_string(cycles.back().n_unknowns);
+    const std::string solved = std::to_string(run.cycles.back().n_unknowns);
     throw NotSolved("after a mesh of " + solved + " unknowns: " + shortage.reason +
                     "; set Mesh/Most unknowns to " + solved + " to end there");
   }
 }
 
-Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
-                         const RunOptions& options, RunStatistics statistics) {
-  if (is_interrupted(mesh.communicator()))
+Solution solve_on_shared(Run run, MeshObjects& shared, const Scene& scene) {
+  if (is_interrupted(run.mesh.communicator()))
     throw Interrupted("interrupted before the mesh was solved");
-  const Load* const load = shared.load.get();
-  MeshSolution solution =
-      solve_on_mesh(shared.system, load, scene, options.contact, {}, statistics);
-  std::optional<Certificate> certificate =
-      certify_solution(options, load, shared.dual, solution, statistics);
-  const auto cycle = describe_cycle(*mesh.space, solution, certificate);
-  add_stiffness(shared.system, load, solution, statistics);
-  return finish(options, std::move(mesh), std::move(solution), std::move(certificate), {cycle},
-                /*is_interrupted=*/false, std::move(statistics));
+  MeshSolution solution = solve_on_mesh(shared, scene, run.options.contact, {}, run.statistics);
+  std::optional<Certificate> certificate = certify_solution(run, shared, solution);
+  run.cycles = {describe_cycle(*run.mesh.space, solution, certificate)};
+  add_stiffness(shared, solution, run.statistics);
+  return finish(std::move(run), {std::move(solution), std::move(certificate)});
 }
 
 } // namespace rollwave

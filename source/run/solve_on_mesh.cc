@@ -26,11 +26,12 @@ double relative(double part, double whole) {
   return part == 0 ? 0 : part / whole;
 }
 
-/// @param round_off of K u, as equilibrium_round_off()
-Residuals measure_residuals(const ContactBoundary& boundary, const ContactProblem& problem,
-                            const ContactSolution& solution, FieldVector stiffness_times_u,
-                            double round_off, const FieldVector* load) {
-  const auto& [displacement, force, kept] = solution.state;
+Residuals measure_residuals(const MeshSolution& solution, FieldVector stiffness_times_u,
+                            const FieldVector* load) {
+  const ContactBoundary& boundary = solution.boundary;
+  const ContactProblem& problem = solution.problem;
+  const Vector<double>& displacement = solution.contact.state.displacement;
+  const Vector<double>& force = solution.contact.state.force;
   FieldVector imbalance = std::move(stiffness_times_u);
   if (load)
     imbalance -= *load;
@@ -46,7 +47,9 @@ Residuals measure_residuals(const ContactBoundary& boundary, const ContactProble
     force_times_gap += std::abs(force(i) * gap(i));
     force_times_road += std::abs(force(i) * problem.phi(i));
   }
-  const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm());
+  const double forces = std::max(load ? load->l2_norm() : 0., force.l2_norm()),
+               round_off =
+                   equilibrium_round_off(boundary.space(), solution.scene, solution.displacement);
   return {relative(imbalance.l2_norm(), forces), relative(penetration, displacement.linfty_norm()),
           relative(negative_pressure, pressure.linfty_norm()),
           relative(force_times_gap, force_times_road),
@@ -64,10 +67,9 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
                                       pressure, statistics);
     solution.scene = with_distance(solution.scene, road.distance);
     solution.road_refusal = std::move(road.refusal);
-    if (road.shortfall)
-      solution.notes.push_back({Note::Kind::shortfall, *road.shortfall});
+    solution.result.notes = std::move(road.notes);
     pressure = std::move(road.pressure);
-    solution.distance_history = std::move(road.history);
+    solution.result.distance_history = std::move(road.history);
   }
   solution.problem = make_contact_problem(boundary, solution.scene);
   const auto observe = [&](const std::vector<ContactStep>& history) {
@@ -80,8 +82,11 @@ void solve_contact_on(const ContactOptions& options, const PressureProfile& star
   };
   solution.contact =
       solve_contact(equations, solution.problem, options, pressure, statistics, observe);
-  if (!solution.contact.remark.empty())
-    solution.notes.push_back({Note::Kind::remark, solution.contact.remark});
+  MeshResult& result = solution.result;
+  result.history = std::move(solution.contact.history);
+  result.step_length = solution.contact.step_length;
+  result.notes.insert(result.notes.end(), solution.contact.notes.begin(),
+                      solution.contact.notes.end());
 }
 
 } // namespace
@@ -118,7 +123,7 @@ double PressureProfile::at(double angle) const {
 
 PressureProfile pressure_profile(const MeshSolution& solution) {
   return {solution.boundary.contact_nodes(),
-          solution.problem.pressures(solution.contact.state.force), solution.resultants.ends};
+          solution.problem.pressures(solution.contact.state.force), solution.result.contact.ends};
 }
 
 ContactEquations contact_equations(const System& system, const Load* load,
@@ -128,10 +133,12 @@ ContactEquations contact_equations(const System& system, const Load* load,
   return {*system.condensed, load ? load->condensed : Vector<double>(), *first, boundary.size()};
 }
 
-MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& scene,
+MeshSolution solve_on_mesh(const MeshObjects& objects, const Scene& scene,
                            const ContactOptions& options, const PressureProfile& start,
                            RunStatistics& statistics, const ContactObserver& step_ended) {
-  MeshSolution solution = {scene, ContactBoundary(system.boundary.space(), scene.zone())};
+  const System& system = objects.system;
+  const Load* const load = objects.load.get();
+  MeshSolution solution = {{scene, ContactBoundary(system.boundary.space(), scene.zone())}};
   const ContactEquations equations = contact_equations(system, load, solution.boundary);
   const FieldVector* const f = load ? &load->vector : nullptr;
   {
@@ -143,28 +150,27 @@ MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& 
     solution.displacement = expand(system, load, solution.contact.state.kept, statistics);
   }
   const RunStatistics::Phase phase(statistics, "measurement");
-  solution.resultants = measure_contact(solution.scene, solution.problem, solution.contact,
-                                        solution.boundary.space().dof_handler().get_fe().degree);
+  MeshResult& result = solution.result;
+  result.contact = measure_contact(solution.scene, solution.problem, solution.contact,
+                                   solution.boundary.space().dof_handler().get_fe().degree);
   if (const auto& given = solution.scene.load; given && scene.nip) {
-    const double load = solution.resultants.loads.of(given->kind);
+    const double load = result.contact.loads.of(given->kind);
     if (load > 0)
       solution.scene = calibrated(solution.scene, given->value / load);
   }
   if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
-    solution.resultants.loads.work_conjugate.reset();
-    solution.notes.push_back({Note::Kind::remark,
-                              "contact reaches the tangent of the drum on this mesh, where the "
-                              "work-conjugate load and the stiffness are not resolved: they are "
-                              "left out"});
+    result.contact.loads.work_conjugate.reset();
+    result.notes.push_back({Note::Kind::remark,
+                            "contact reaches the tangent of the drum on this mesh, where the "
+                            "work-conjugate load and the stiffness are not resolved: they are "
+                            "left out"});
   }
   FieldVector stiffness_times_u = system.factor->apply(solution.displacement);
   const double norm_squared = solution.displacement * stiffness_times_u;
   const double work_of_force = f ? solution.displacement * *f : 0.;
   require_finite(norm_squared + std::abs(work_of_force), "the energy");
-  solution.energy = {norm_squared / 2 - work_of_force, norm_squared};
-  solution.residuals = measure_residuals(
-      solution.boundary, solution.problem, solution.contact, std::move(stiffness_times_u),
-      equilibrium_round_off(solution.boundary.space(), scene, solution.displacement), f);
+  result.energy = {norm_squared / 2 - work_of_force, norm_squared};
+  result.residuals = measure_residuals(solution, std::move(stiffness_times_u), f);
   return solution;
 }
 

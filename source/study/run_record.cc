@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <system_error>
 
 namespace rollwave {
@@ -74,8 +73,8 @@ std::string to_json(const RunRecord& record, const std::string& digest) {
                {"run", digest},
                {"values", record.values},
                {"reference", record.reference},
-               {"shortfall", record.failure},
-               {"remarks", record.remarks},
+               {"shortfalls", texts_of(record.notes, Note::Kind::shortfall)},
+               {"remarks", texts_of(record.notes, Note::Kind::remark)},
                {"shared", record.shared},
                {"profile_angles", angles},
                {"profile_road_lengths", road_lengths},
@@ -91,8 +90,10 @@ std::optional<RunRecord> from_json(const std::string& text, const std::string& d
     RunRecord record;
     all.at("values").get_to(record.values);
     all.at("reference").get_to(record.reference);
-    all.at("shortfall").get_to(record.failure);
-    all.at("remarks").get_to(record.remarks);
+    for (const Json& text : all.at("shortfalls"))
+      record.notes.push_back({Note::Kind::shortfall, text});
+    for (const Json& text : all.at("remarks"))
+      record.notes.push_back({Note::Kind::remark, text});
     all.at("shared").get_to(record.shared);
     const Json &angles = all.at("profile_angles"), &road_lengths = all.at("profile_road_lengths"),
                &pressures = all.at("profile_pressures");
@@ -129,7 +130,7 @@ void write_record(const fs::path& directory, const std::string& digest, const Ru
 std::map<std::string, double> values_of(const Result& result, const Units& units) {
   std::map<std::string, double> values;
   for (const ResultQuantity& quantity : result_quantities())
-    if (const auto value = quantity.in_users_units(result, units); value && std::isfinite(*value))
+    if (const auto value = quantity.in_users_units(result, units))
       values[quantity.name] = *value;
   return values;
 }

@@ -28,10 +28,11 @@ std::string row(const RunPlan& plan, const RunRecord& run, bool has_files) {
     line += csv_field(setting.value) + ',';
   line += run.is_solved() ? "1," : "0,";
   line += plan.published_steps ? std::to_string(*plan.published_steps) : "";
-  const std::string remarks = boost::algorithm::join(run.remarks, " | "),
+  const std::string remarks =
+                        boost::algorithm::join(texts_of(run.notes, Note::Kind::remark), " | "),
                     files =
                         has_files && run.is_solved() ? directory_of_run(plan.digest).string() : "";
-  for (const std::string& text : {run.reference, run.failure, remarks, files})
+  for (const std::string& text : {run.reference, shortfall_text(run.notes), remarks, files})
     line += ',' + csv_field(text);
   for (const ResultQuantity& quantity : result_quantities()) {
     const auto value = run.values.find(quantity.name);

@@ -8,8 +8,6 @@
 #include "rollwave/study/convergence.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -19,9 +17,6 @@
 namespace rollwave {
 
 namespace {
-
-/// Leaves a gap in a curve.
-constexpr double missing_point = std::numeric_limits<double>::quiet_NaN();
 
 /// The numbers that a key takes in all runs, without entries where one of its values is no number.
 std::vector<double> numbers_of(const Study& study, unsigned int key) {
@@ -75,27 +70,25 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
 
 /// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
 /// the other keys; another quantity gives the marks, and the bounds of a vertical load the band.
-std::vector<Curve> curves_of(const Study& study, const std::vector<double>& x,
+/// @param x of each run, where it is known
+std::vector<Curve> curves_of(const Study& study, const std::vector<std::optional<double>>& x,
                              const std::string& quantity, const std::string& marks = "") {
   std::vector<Curve> curves;
   const bool has_bounds = quantity == "contact.vertical_load";
   for (unsigned int run = 0; run < study.plans.size(); ++run) {
-    const auto number = [&](const std::string& name) {
-      return study.value(run, name).value_or(missing_point);
-    };
     const RunPlan& plan = study.plans[run];
     const auto fastest = plan.varied.begin() + study.first_key_of_part.back();
     if (run % study.n_fastest == 0)
       curves.push_back({label(plan, {plan.varied.begin(), fastest}), {}});
-    CurvePoint point = {x[run], number(quantity)};
+    if (!x[run])
+      continue;
+    CurvePoint point = {*x[run], study.value(run, quantity)};
     if (has_bounds) {
-      point.lower = number(quantity + "_lower_bound");
-      point.upper = number(quantity + "_upper_bound");
+      point.lower = study.value(run, quantity + "_lower_bound");
+      point.upper = study.value(run, quantity + "_upper_bound");
     }
-    if (!marks.empty())
-      point.mark = number(marks);
-    if (!std::isnan(point.x))
-      curves.back().points.push_back(point);
+    point.mark = study.value(run, marks);
+    curves.back().points.push_back(point);
   }
   return curves;
 }
@@ -105,10 +98,10 @@ std::string x_label_of(const Study& study) {
 }
 
 /// The values of a quantity in all runs.
-std::vector<double> values_in_runs(const Study& study, const std::string& quantity) {
-  std::vector<double> values;
+std::vector<std::optional<double>> values_in_runs(const Study& study, const std::string& quantity) {
+  std::vector<std::optional<double>> values;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
-    values.push_back(study.value(run, quantity).value_or(missing_point));
+    values.push_back(study.value(run, quantity));
   return values;
 }
 
@@ -128,11 +121,11 @@ const ResultQuantity& main_result(const Study& study) {
 /// A panel for each quantity that is drawn over the key that varies fastest. If this key is the
 /// distance or the load, the first panel is the vertical load over the deflection; otherwise it is
 /// the main_result() over this key.
-std::vector<Panel> curve_panels(const Study& study, const std::vector<double>& x) {
+std::vector<Panel> curve_panels(const Study& study, const std::vector<std::optional<double>>& x) {
   const std::string& key = fastest_key(study, study.plans.front()).key;
   const ResultQuantity& deflection = result_quantity("scene.deflection");
   std::vector<Panel> panels;
-  const auto add = [&](const std::string& x_label, const std::vector<double>& over,
+  const auto add = [&](const std::string& x_label, const std::vector<std::optional<double>>& over,
                        const ResultQuantity& quantity) {
     panels.push_back({x_label, label_of(study, quantity), curves_of(study, over, quantity.name)});
   };
@@ -163,7 +156,7 @@ bool is_zigzag(const Panel& panel) {
 bool is_empty(const Panel& panel) {
   for (const Curve& curve : panel.curves)
     for (const CurvePoint& point : curve.points)
-      if (!std::isnan(point.y))
+      if (point.y)
         return false;
   return true;
 }
@@ -213,16 +206,17 @@ std::optional<Picture> map_of_result(const Study& study, const std::string& titl
       std::set(y.begin(), y.end()).size() <= most_curves)
     return {};
   const ResultQuantity& result = main_result(study);
-  std::vector<std::vector<std::array<double, 3>>> lines;
+  std::vector<std::vector<MapPoint>> lines;
   for (unsigned int run = 0; run < x.size(); ++run) {
     if (run == 0 || x[run] != x[run - 1])
       lines.emplace_back();
-    lines.back().push_back(
-        {{x[run], y[run], study.value(run, result.name).value_or(missing_point)}});
+    lines.back().push_back({x[run], y[run], study.value(run, result.name)});
   }
   for (auto& line : lines)
-    std::sort(line.begin(), line.end());
-  std::sort(lines.begin(), lines.end());
+    std::sort(line.begin(), line.end(),
+              [](const MapPoint& one, const MapPoint& other) { return one.y < other.y; });
+  std::sort(lines.begin(), lines.end(),
+            [](const auto& one, const auto& other) { return one[0].x < other[0].x; });
   const Units units = study.units();
   return plot_map(title, axis_label(varied[0], units),
                   axis_label(varied[study.first_key_of_part[1]], units), label_of(study, result),
@@ -245,7 +239,8 @@ void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& 
     if (!panels.empty())
       pictures.push_back(plot_panels(name, title, panels));
   };
-  const auto x = fastest_numbers(study);
+  const auto numbers = fastest_numbers(study);
+  const std::vector<std::optional<double>> x(numbers.begin(), numbers.end());
   const bool is_over_method = !x.empty() && !is_of_scene(fastest_key(study, study.plans.front()));
   if (const auto map = map_of_result(study, title))
     pictures.push_back(*map);

@@ -89,7 +89,7 @@ bool make_runs(Study& study, const Parameters& parameters, std::ostream& out, MP
   const auto missing = missing_runs(study);
   const dealii::Timer timer;
   try {
-    StudySolver solver(study.plans, parameters, directory, report_long_runs(out), communicator);
+    StudySolver solver(study.plans, parameters, report_long_runs(out), communicator);
     for (unsigned int i = 0; i < missing.size(); ++i) {
       const unsigned int run = missing[i];
       study.runs[run] = known_to_all(directory, study.plans[run].digest, study.files, communicator);
@@ -142,8 +142,8 @@ unsigned int run_study(Study& study, const Parameters& parameters, std::ostream&
              "before are not taken over\n";
     WrittenFiles written;
     write_parameters(directory, parameters, written);
-    for (const std::string& remark : written.remarks)
-      out << "Note: " << remark << '\n';
+    for (const Note& note : written.notes)
+      out << "Note: " << note.text << '\n';
   }
   take_over(study, directory, communicator);
   if (const auto n_known = study.n_ended(); n_known > 0) {

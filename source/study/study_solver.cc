@@ -57,15 +57,16 @@ const auto& known_or_computed(Known& known, const typename Known::value_type::fi
 } // namespace
 
 StudySolver::StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
-                         const std::filesystem::path& directory, const Progress& progress,
-                         MPI_Comm communicator)
-    : plans(plans), study(study), directory(directory), progress(progress),
-      communicator(communicator) {}
+                         const Progress& progress, MPI_Comm communicator)
+    : plans(plans), study(study), progress(progress), communicator(communicator) {}
 
 RunRecord StudySolver::record_of(unsigned int number, const OwnFiles& files) {
   const RunPlan& plan = plans[number];
   RunRecord run;
   run.files = files;
+  const auto fail = [&run](const std::string& why) {
+    run.notes.push_back({Note::Kind::shortfall, why});
+  };
   try {
     solve(number, run);
   } catch (const Interrupted&) {
@@ -73,16 +74,16 @@ RunRecord StudySolver::record_of(unsigned int number, const OwnFiles& files) {
   } catch (const NotWritten&) {
     throw;
   } catch (const NotSolved& failure) {
-    run.failure = failure.what();
+    fail(failure.what());
   } catch (const BadValue& value) {
-    run.failure = refusal(plan.parameters.settings, value);
+    fail(refusal(plan.parameters.settings, value));
   } catch (const BadInput& refusal) { // by the mesh, such as for a zone without a node
-    run.failure = refusal.what();
+    fail(refusal.what());
   } catch (const std::exception& failure) {
     if (!is_serial(communicator))
       throw; // the other processes would wait
     const bool is_short = dynamic_cast<const std::bad_alloc*>(&failure);
-    run.failure = is_short ? NotEnoughMemory().what() : reason_of(failure);
+    fail(is_short ? NotEnoughMemory().what() : reason_of(failure));
   }
   return run;
 }
@@ -149,12 +150,11 @@ Solution StudySolver::solve_shared(unsigned int number, RunRecord& run) {
   if (!mesh)
     mesh = make_mesh(scene, parameters, communicator, statistics);
   if (!shared)
-    shared.emplace(
-        SharedObjects{make_system(*mesh->space, scene, widest_zone(number), statistics), {}, {}});
+    shared.emplace(MeshObjects{make_system(*mesh->space, scene, widest_zone(number), statistics)});
   if (!has_load)
     shared->load = make_load(shared->system, scene, statistics);
   Solution result =
-      solve_on_shared(std::move(*mesh), *shared, scene, parameters, std::move(statistics));
+      solve_on_shared({parameters, std::move(*mesh), std::move(statistics)}, *shared, scene);
   last = number;
   return result;
 }
@@ -165,7 +165,7 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
                                            : solve_shared(number, run));
   Result& result = solution->result;
   if (result.is_interrupted)
-    throw Interrupted(shortfall_text(result));
+    throw Interrupted(shortfall_text(result.notes));
   const Scene& scene = solution->scene;
   const auto& [cylinder, road, material] =
       std::tie(plan.parameters.cylinder, plan.parameters.road, plan.parameters.material);
@@ -183,18 +183,17 @@ void StudySolver::solve(unsigned int number, RunRecord& run) {
       run.reference = "the semi-analytic solution";
     }
   result.peak_memory_mib = Utilities::MPI::max(peak_memory_mib(), communicator);
-  run.remarks = texts_of(result.notes, Note::Kind::remark);
+  run.notes = result.notes;
   if (!run.files.kinds.empty())
     write_files(plan, run);
   run.values = values_of(result, scene.units);
   run.profile = profile_of(result, scene.units);
-  run.failure = shortfall_text(result);
 }
 
 /// Writes the files of the run that was solved last, and puts their sizes and remarks into its
 /// record.
 void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
-  const auto own_directory = directory / directory_of_run(plan.digest);
+  const auto own_directory = study.output.directory / directory_of_run(plan.digest);
   const std::string origin = last_of(study.settings, "Study/Files of each run")->origin;
   const Parameters parameters =
       with_values(plan.parameters, {read({"Output", "Files", text_of(run.files.kinds), origin}),
@@ -202,7 +201,7 @@ void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
   const WrittenFiles written = write_results(own_directory, parameters, *solution);
   for (const auto& file : written.files)
     run.sizes[file.filename().string()] = std::filesystem::file_size(file);
-  run.remarks.insert(run.remarks.end(), written.remarks.begin(), written.remarks.end());
+  run.notes.insert(run.notes.end(), written.notes.begin(), written.notes.end());
 }
 
 } // namespace rollwave

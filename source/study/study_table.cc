@@ -8,6 +8,7 @@
 #include <boost/algorithm/string/join.hpp>
 #include <deal.II/base/table_handler.h>
 
+#include <cmath>
 #include <functional>
 #include <map>
 #include <ostream>
@@ -33,7 +34,9 @@ std::string in_tex(const std::string& text) {
 }
 
 std::string outcome_of(const RunRecord& run) {
-  return run.failure.empty() ? "solved" : run.is_solved() ? "target not reached" : "not solved";
+  return !run.is_solved()                    ? "not solved"
+         : shortfall_text(run.notes).empty() ? "solved"
+                                             : "target not reached";
 }
 
 /// @param in_format makes a text one of the table's format
@@ -91,7 +94,7 @@ bool has_one_modulus_for_covers(const Study& study) {
       continue;
     const double thickness = p.cylinder.outer_radius - p.cylinder.inner_radius;
     const auto [known, is_first] = thickness_of.emplace(p.material.shear_modulus, thickness);
-    if (!is_first && known->second != thickness)
+    if (!is_first && std::abs(known->second - thickness) > 1e-9 * thickness)
       return true;
   }
   return false;
@@ -132,10 +135,10 @@ std::string study_text(const Study& study) {
   std::map<unsigned int, std::string> failures, shortfalls, remarks;
   for (unsigned int run = 0; run < study.runs.size(); ++run)
     if (const auto& made = study.runs[run]) {
-      if (!made->failure.empty())
-        (made->is_solved() ? shortfalls : failures)[run] = made->failure;
-      if (!made->remarks.empty())
-        remarks[run] = boost::algorithm::join(made->remarks, "; ");
+      if (const auto missed = shortfall_text(made->notes); !missed.empty())
+        (made->is_solved() ? shortfalls : failures)[run] = missed;
+      if (const auto texts = texts_of(made->notes, Note::Kind::remark); !texts.empty())
+        remarks[run] = boost::algorithm::join(texts, "; ");
     }
   out << '\n';
   if (!study.is_of_scenes())

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rollwave/base/note.h"
+
 #include <mpi.h>
 
 #include <filesystem>
@@ -8,10 +10,10 @@
 
 namespace rollwave {
 
-/// The files of a run, and remarks on those that could not be written.
+/// The files of a run, and notes on those that could not be written.
 struct WrittenFiles {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> remarks;
+  std::vector<Note> notes;
   unsigned long n_bytes = 0;
 
   /// Writes a file. @throws NotWritten.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "rollwave/base/note.h"
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/scene/loads.h"
 #include "rollwave/scene/road.h"
@@ -8,7 +9,6 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -102,8 +102,16 @@ struct ContactSolution {
   std::vector<bool> active;
   std::vector<ContactStep> history;
   double gap_accuracy = 0; ///< how far nodes in contact may be from the road, a length
-  std::string remark = ""; ///< anything unusual the user should know
+  std::vector<Note> notes = {};
   std::optional<StepLength> step_length = {}; ///< of Uzawa's method
+};
+
+/// The contact of a scene on one mesh.
+struct SolvedContact {
+  Scene scene; ///< with the distance, and the shear modulus, that a given load or nip needs
+  ContactBoundary boundary; ///< of the scene's zone
+  ContactProblem problem = {};
+  ContactSolution contact = {};
 };
 
 /// Solves by the method of @p options, beginning with the contact pressures @p start (none when

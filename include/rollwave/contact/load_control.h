@@ -26,14 +26,10 @@ bool reaches_tangent(const ContactBoundary& boundary, const Road& road,
  * These distances may be less than the inner radius, which the linear problem does not notice.
  * Where no end can move, d is 0 and the stiffness is that of the fixed set of nodes.
  *
- * @p solution is that of @p problem, which belongs to @p scene and its @p boundary.
  * @throws NotSolved as active_set()
  */
 std::optional<Loads> contact_stiffness(const ContactEquations& equations,
-                                       const ContactBoundary& boundary, const Scene& scene,
-                                       const ContactProblem& problem,
-                                       const ContactSolution& solution, unsigned int most_steps,
-                                       RunStatistics& statistics);
+                                       const SolvedContact& solved, RunStatistics& statistics);
 
 /// One step of the search for the distance.
 struct DistanceStep {
@@ -53,9 +49,9 @@ struct RoadPosition {
   /// nearest. Finer meshes may reach it.
   std::optional<std::string> refusal = {};
 
-  /// How far the load is from that of Scene::load, where that is more than 1e-9 of it, or the nip
-  /// from Scene::nip, where that is more than a hundredth.
-  std::optional<std::string> shortfall = {};
+  /// A shortfall where the load is farther from Scene::load than 1e-9 of it, or the nip from
+  /// Scene::nip than a hundredth.
+  std::vector<Note> notes = {};
 };
 
 /**

@@ -3,6 +3,7 @@
 #include "rollwave/error_bound/admissible_displacement.h"
 #include "rollwave/error_bound/load_bounds.h"
 
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -32,9 +33,9 @@ struct CertifiedError {
   double eta;          ///< as in Certificate
   double norm_squared; ///< a(v, v)
 
-  /// Features of a force expression that are smaller than this length may be undetected; 0 without
-  /// such a force.
-  double sampled_width;
+  /// Features of a force expression that are smaller than this length may be undetected; nullopt
+  /// without such a force.
+  std::optional<double> sampled_width;
 };
 
 /**
@@ -88,11 +89,10 @@ struct Certificate {
   double work_of_force;            ///< (f, v), by Q_h
 };
 
-/// Certifies the solution @p contact on the @p boundary of a scene with the displacement @p field.
+/// Certifies a solution with the displacement @p field.
 /// @param force that of the scene, nullptr without
 /// @param dual of the same space and speed
-Certificate certify(const ContactBoundary& boundary, const Scene& scene,
-                    const ContactSolution& contact, const FieldVector& field,
+Certificate certify(const SolvedContact& solved, const FieldVector& field,
                     const ForceIntegral* force, const DualSystem& dual, RunStatistics& statistics);
 
 } // namespace rollwave

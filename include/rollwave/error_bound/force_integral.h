@@ -68,8 +68,8 @@ public:
   /// The share of an active cell in delta^2.
   double cell_error_squared(unsigned int cell) const { return uniform ? 0 : errors_squared[cell]; }
 
-  /// The largest distance of the points that see f, a length; 0 for a number.
-  double scan_width() const { return width; }
+  /// The largest distance of the points that see f, a length; nullopt for a number.
+  std::optional<double> scan_width() const { return uniform ? std::nullopt : std::optional(width); }
 
 private:
   void integrate_uniform(const RingSpace& space, double f, const RadialShapesOfMesh& shapes);

@@ -2,19 +2,24 @@
 
 #include "rollwave/plot/gnuplot.h"
 
-#include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rollwave {
 
-/// A point of a curve. A number that is not known is NaN, and leaves a gap.
+/// A point of a curve. A number that is not known leaves a gap.
 struct CurvePoint {
+  double x;
+  std::optional<double> y;
+  std::optional<double> lower = {}, upper = {}; ///< an interval that is drawn as part of a band
+  std::optional<double> mark = {};              ///< a further y, shown as an open circle
+};
+
+/// A point of a map.
+struct MapPoint {
   double x, y;
-  double lower = NAN, upper = NAN; ///< an interval that is drawn as part of a band
-  double mark = NAN;               ///< a further y, shown as an open circle
+  std::optional<double> value;
 };
 
 /// The numbers of a curve's colour and of its dashes.
@@ -51,7 +56,6 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
 /// the middle between neighbours, and contour lines. Of more than 70 values of x or y it shows 70,
 /// and the title says so: each cell takes about 120 bytes.
 Picture plot_map(std::string title, const std::string& x_label, const std::string& y_label,
-                 const std::string& value_label,
-                 const std::vector<std::vector<std::array<double, 3>>>& lines);
+                 const std::string& value_label, const std::vector<std::vector<MapPoint>>& lines);
 
 } // namespace rollwave

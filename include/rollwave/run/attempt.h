@@ -1,6 +1,6 @@
 #pragma once
 
-#include "rollwave/run/note.h"
+#include "rollwave/base/note.h"
 
 #include <mpi.h>
 

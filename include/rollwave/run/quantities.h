@@ -16,12 +16,12 @@ const Quantities& result_quantities();
 const ResultQuantity& result_quantity(std::string_view name);
 
 /// The estimate of the error of a quantity in the user's units, by the quantity that ends in
-/// _uncertainty; nullopt where there is none, NaN where it is not known.
+/// _uncertainty; nullopt where there is none.
 std::optional<double> uncertainty_of(const std::string& name, const Result& result,
                                      const Units& units);
 
 /// The guaranteed interval of a quantity in the user's units, by the quantities that end in
-/// _lower_bound and _upper_bound; nullopt where these do not exist or are infinite.
+/// _lower_bound and _upper_bound; nullopt where there are none.
 std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
                                             const Units& units);
 

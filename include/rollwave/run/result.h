@@ -1,10 +1,10 @@
 #pragma once
 
+#include "rollwave/base/note.h"
 #include "rollwave/base/run_statistics.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/contact/load_control.h"
 #include "rollwave/error_bound/error_bound.h"
-#include "rollwave/run/note.h"
 #include "rollwave/scene/units.h"
 
 #include <optional>
@@ -33,10 +33,10 @@ struct CycleFigures {
   unsigned int n_cells;
   unsigned int n_unknowns;
   unsigned int contact_steps;
-  double road_distance; ///< c, a length
-  double vertical_load; ///< see Loads
-  double indicated;     ///< sqrt(sum eta_K^2); 0 where it was not computed, as on the last mesh
-  std::optional<double> certified;            ///< CertifiedError::relative where it was computed
+  double road_distance;                       ///< c, a length
+  double vertical_load;                       ///< see Loads
+  std::optional<double> indicated = {};       ///< sqrt(sum eta_K^2), where the mesh was refined
+  std::optional<double> certified = {};       ///< CertifiedError::relative
   std::optional<double> load_half_width = {}; ///< of the guaranteed interval of vertical_load
 };
 
@@ -95,34 +95,36 @@ struct SurfacePoint {
   double pressure; ///< at the node, 0 outside of the zone
 };
 
-/// All results of one solved scene, in its units; result_quantities() lists the numbers.
-struct Result {
-  MeshFigures mesh;
-  double road_distance; ///< c, a length
-  double deflection;    ///< b - c, a length: how deep the undeformed ring would lie in the road
-  double relative_deflection; ///< over the thickness b - a
-  ContactResultants contact;
-  Energy energy;
-  Residuals residuals;
-  std::optional<CertifiedError> certified;
+/// The results on one mesh, in the units of the scene.
+struct MeshResult {
+  ContactResultants contact = {};
+  Energy energy = {}; ///< of u_h
+  Residuals residuals = {};
+  std::vector<DistanceStep> distance_history = {}; ///< where a load or nip is given
+  std::vector<ContactStep> history = {};
+  std::optional<StepLength> step_length = {}; ///< of Uzawa's method
+  std::vector<Note> notes = {};
+};
+
+/// All results of one solved scene, those of its last mesh and further ones; result_quantities()
+/// lists the numbers.
+struct Result : MeshResult {
+  MeshFigures mesh = {};
+  double road_distance = 0; ///< c, a length
+  double deflection = 0;    ///< b - c, a length: how deep the undeformed ring would lie in the road
+  double relative_deflection = 0; ///< over the thickness b - a
+  std::optional<CertifiedError> certified = {};
 
   /// The calibrated shear modulus, which is that of the scene, over the given one; where load and
   /// nip are both given.
-  std::optional<double> modulus_ratio;
-  std::optional<TrueErrors> errors;           ///< where a comparison was asked for
-  std::vector<CycleFigures> cycles;           ///< one for each mesh
-  std::vector<DistanceStep> distance_history; ///< on the last mesh, where a load or nip is given
-  std::vector<ContactStep> history;           ///< on the last mesh
-  std::optional<StepLength> step_length;      ///< of Uzawa's method
-  std::vector<Note> notes;
-  bool is_interrupted = false; ///< by the user: a shortfall says after what
-  std::vector<ContactRow> contact_rows;
-  std::vector<SurfacePoint> surface;
-  RunStatistics statistics;
-  double peak_memory_mib = 0; ///< the largest of all processes
+  std::optional<double> modulus_ratio = {};
+  std::optional<TrueErrors> errors = {}; ///< where a comparison was asked for
+  std::vector<CycleFigures> cycles = {}; ///< one for each mesh
+  bool is_interrupted = false;           ///< by the user: a shortfall says after what
+  std::vector<ContactRow> contact_rows = {};
+  std::vector<SurfacePoint> surface = {};
+  RunStatistics statistics = {};
+  std::optional<double> peak_memory_mib = {}; ///< the largest of all processes
 };
-
-/// The shortfalls with "; " between them.
-std::string shortfall_text(const Result& result);
 
 } // namespace rollwave

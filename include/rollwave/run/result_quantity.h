@@ -4,7 +4,6 @@
 #include "rollwave/scene/units.h"
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +19,8 @@ struct Shown {
     orders = 4,       ///< the orders of convergence of a study
     curve = 8,        ///< study-curves.svg
     scene_table = 16, ///< study.txt and study.tex where only keys of the scene vary
-    tables = 18,      ///< both tables
-    upper_bound = 32  ///< rounded up where it is shown
+    tables = table | scene_table,
+    upper_bound = 32 ///< rounded up where it is shown
   };
 };
 
@@ -34,11 +33,12 @@ struct ResultQuantity {
   unsigned int shown;  ///< flags of Shown
   unsigned int digits; ///< significant ones on the screen and in tables
 
-  /// The number in the units of the scene: nullopt if the run was not asked for it, which leaves it
-  /// out of summary.json; NaN if it is not known, such as an end without contact, which is null
-  /// there. Both are empty fields in study.csv.
+  /// The number in the units of the scene; nullopt if it is not known, such as an end without
+  /// contact.
   std::function<std::optional<double>(const Result&)> value;
 
+  /// The same in the user's units; nullopt also for a bound that is infinite. It is null in
+  /// summary.json and an empty field in study.csv.
   std::optional<double> in_users_units(const Result& result, const Units& units) const;
 
   /// @p number with its digits, or with those that the estimate of its error leaves.
@@ -48,19 +48,18 @@ struct ResultQuantity {
 using Quantities = std::vector<ResultQuantity>;
 
 constexpr unsigned int all_digits = 9;
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A number of an optional part of a result; nullopt without that part.
-template <typename Part>
-auto optional_member(std::optional<Part> Result::*part, double Part::*number) {
+template <typename Owner, typename Part>
+auto optional_member(std::optional<Part> Owner::*part, double Part::*number) {
   return [part, number](const Result& result) {
     return result.*part ? std::optional((*(result.*part)).*number) : std::nullopt;
   };
 }
 
 /// The same where the number is optional too.
-template <typename Part>
-auto optional_member(std::optional<Part> Result::*part, std::optional<double> Part::*number) {
+template <typename Owner, typename Part>
+auto optional_member(std::optional<Part> Owner::*part, std::optional<double> Part::*number) {
   return [part, number](const Result& result) {
     return result.*part ? (*(result.*part)).*number : std::nullopt;
   };

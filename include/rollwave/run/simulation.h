@@ -1,15 +1,13 @@
 #pragma once
 
-#include "rollwave/error_bound/dual_system.h"
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/run/mesh.h"
 #include "rollwave/run/progress.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
-#include "rollwave/run/system.h"
+#include "rollwave/run/solve_on_mesh.h"
 #include "rollwave/scene/scene.h"
 
-#include <memory>
 #include <optional>
 
 namespace rollwave {
@@ -23,6 +21,14 @@ struct Solution {
   Result result;
 
   const RingSpace& space() const { return *mesh.space; }
+};
+
+/// A run while it lasts.
+struct Run {
+  const RunOptions& options;
+  Mesh mesh;
+  RunStatistics statistics = {};
+  std::vector<CycleFigures> cycles = {}; ///< one for each mesh that was solved
 };
 
 /// Checks what needs no mesh. @throws BadValue for a mesh that is too large or has too many contact
@@ -49,19 +55,11 @@ void check_simulation(const Scene& scene, const RunOptions& options);
 Solution simulate(const Scene& scene, const RunOptions& options,
                   MPI_Comm communicator = MPI_COMM_SELF, const Progress& progress = {});
 
-/// The objects that runs on one mesh, at one speed and under one force share.
-struct SharedObjects {
-  System system;
-  std::unique_ptr<const Load> load;       ///< nullptr without force
-  std::unique_ptr<const DualSystem> dual; ///< made by the first run that needs it
-};
-
 /// Solves a scene without refinement on objects that belong to the same radii, mesh options, speed
 /// and force, and whose zone contains that of the scene.
-/// @param statistics work and seconds of making the objects, if they are to be part of the result
+/// @param run with the work and seconds of making the objects, if they are to be part of the result
 /// @throws BadValue for a load or a nip that no distance gives; NotSolved as solve_on_mesh();
 /// Interrupted
-Solution solve_on_shared(Mesh mesh, SharedObjects& shared, const Scene& scene,
-                         const RunOptions& options, RunStatistics statistics);
+Solution solve_on_shared(Run run, MeshObjects& shared, const Scene& scene);
 
 } // namespace rollwave

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "rollwave/contact/contact_problem.h"
+#include "rollwave/error_bound/dual_system.h"
 #include "rollwave/run/result.h"
 #include "rollwave/run/run_options.h"
 #include "rollwave/run/system.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,30 +36,28 @@ private:
   std::optional<std::pair<double, double>> ends;
 };
 
+/// The objects on one mesh, at one speed and under one force, which runs may share.
+struct MeshObjects {
+  System system;
+  std::unique_ptr<const Load> load = {};       ///< nullptr without force
+  std::unique_ptr<const DualSystem> dual = {}; ///< made where a certificate is wanted
+};
+
 /// The discrete problem and its solution on one mesh.
-struct MeshSolution {
-  Scene scene; ///< with the distance, and the shear modulus, that a given load or nip needs
-  ContactBoundary boundary; ///< of the scene's zone
-  ContactProblem problem = {};
-  ContactSolution contact = {};
-  FieldVector displacement = {}; ///< u_h
-  ContactResultants resultants = {};
-  std::vector<DistanceStep> distance_history = {}; ///< where a load or a nip is given
-  std::optional<std::string> road_refusal = {};    ///< see RoadPosition::refusal
-  Energy energy = {};                              ///< of u_h
-  Residuals residuals = {};
-  std::vector<Note> notes = {};
+struct MeshSolution : SolvedContact {
+  FieldVector displacement = {};                ///< u_h
+  std::optional<std::string> road_refusal = {}; ///< see RoadPosition::refusal
+  MeshResult result = {};
 };
 
 /// The contact pressure of a solution.
 PressureProfile pressure_profile(const MeshSolution& solution);
 
 /// Solves @p scene, beginning with the contact pressures @p start.
-/// @param system of the scene's speed, with the nodes of its zone
-/// @param load of the scene's force, nullptr without
+/// @param objects of the scene's speed and force, with the nodes of its zone
 /// @throws BadInput where no node lies in the zone, NotSolved when a method fails or a number
 /// overflows double precision.
-MeshSolution solve_on_mesh(const System& system, const Load* load, const Scene& scene,
+MeshSolution solve_on_mesh(const MeshObjects& objects, const Scene& scene,
                            const ContactOptions& options, const PressureProfile& start,
                            RunStatistics& statistics, const ContactObserver& step_ended = {});
 

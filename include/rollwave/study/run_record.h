@@ -48,10 +48,9 @@ struct RunRecord {
   /// The known result_quantities() by their names, in the user's units; none where it was not
   /// solved.
   std::map<std::string, double> values;
-  std::string reference; ///< what its errors are measured against; empty if there are none
-  std::string failure;   ///< why it was not solved or did not reach its target; else empty
-  std::vector<std::string> remarks;
-  std::string shared; ///< what it reuses from the run before; its seconds leave that out
+  std::string reference;   ///< what its errors are measured against; empty if there are none
+  std::vector<Note> notes; ///< a shortfall says why it was not solved
+  std::string shared;      ///< what it reuses from the run before; its seconds leave that out
   std::vector<ProfilePoint> profile; ///< the pressure along the contact
   OwnFiles files;
   std::map<std::string, std::uintmax_t> sizes; ///< of the files in bytes, by their names

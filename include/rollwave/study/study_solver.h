@@ -6,7 +6,6 @@
 
 #include <mpi.h>
 
-#include <filesystem>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -19,10 +18,8 @@ namespace rollwave {
 class StudySolver {
 public:
   /// @param study its parameters
-  /// @param directory of the study
   /// @param progress of each run
-  StudySolver(const std::vector<RunPlan>& plans, const Parameters& study,
-              const std::filesystem::path& directory, const Progress& progress,
+  StudySolver(const std::vector<RunPlan>& plans, const Parameters& study, const Progress& progress,
               MPI_Comm communicator);
 
   /// Solves the run of this number, from 0 on, and writes its @p files; if that fails the reason is
@@ -39,12 +36,11 @@ private:
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
-  const std::filesystem::path directory;
   const Progress progress;
   const MPI_Comm communicator;
-  std::optional<Solution> solution;    ///< of the last run
-  std::optional<SharedObjects> shared; ///< on its mesh
-  std::optional<unsigned int> last;    ///< the number of the run that has left both
+  std::optional<Solution> solution;  ///< of the last run
+  std::optional<MeshObjects> shared; ///< on its mesh
+  std::optional<unsigned int> last;  ///< the number of the run that has left both
 
   /// The scene of a run, with the distance, which depends on the mesh if a load is given.
   using SceneKey = std::tuple<CylinderOptions, RoadOptions, MaterialOptions, double>;

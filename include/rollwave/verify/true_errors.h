@@ -1,7 +1,7 @@
 #pragma once
 
+#include "rollwave/base/note.h"
 #include "rollwave/exact/exact_solution.h"
-#include "rollwave/run/note.h"
 #include "rollwave/run/simulation.h"
 
 #include <vector>

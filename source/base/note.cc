@@ -1,4 +1,6 @@
-#include "rollwave/run/note.h"
+#include "rollwave/base/note.h"
+
+#include <boost/algorithm/string/join.hpp>
 
 namespace rollwave {
 
@@ -8,6 +10,10 @@ std::vector<std::string> texts_of(const std::vector<Note>& notes, Note::Kind kin
     if (note.kind == kind)
       texts.push_back(note.text);
   return texts;
+}
+
+std::string shortfall_text(const std::vector<Note>& notes) {
+  return boost::algorithm::join(texts_of(notes, Note::Kind::shortfall), "; ");
 }
 
 } // namespace rollwave

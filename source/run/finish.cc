@@ -1,5 +1,6 @@
-#include "rollwave/run/make_result.h"
+#include "rollwave/run/finish.h"
 
+#include "rollwave/base/errors.h"
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/run/remarks.h"
 
@@ -51,36 +52,31 @@ std::vector<SurfacePoint> tabulate_surface(const ContactBoundary& boundary,
 
 } // namespace
 
-Result make_result(const RunOptions& options, const Mesh& mesh, const MeshSolution& solution,
-                   const std::optional<Certificate>& certificate, std::vector<CycleFigures> cycles,
-                   bool is_interrupted, RunStatistics statistics) {
+Solution finish(Run run, LastSolution last) {
+  MeshSolution& solution = last.solution;
   const Scene& scene = solution.scene;
+  if (solution.road_refusal)
+    throw BadValue("Road", scene.nip ? "Nip" : "Load", *solution.road_refusal);
   const ContactState& state = solution.contact.state;
-  Result result = {};
+  Result result = {std::move(solution.result)};
   result.mesh = describe_mesh(solution.boundary);
   result.road_distance = scene.road.distance;
   result.deflection = scene.outer_radius - scene.road.distance;
   result.relative_deflection = result.deflection / (scene.outer_radius - scene.inner_radius);
-  result.contact = solution.resultants;
-  result.energy = solution.energy;
-  result.residuals = solution.residuals;
-  if (certificate)
-    result.certified = certificate->error;
-  result.cycles = std::move(cycles);
-  result.distance_history = solution.distance_history;
-  result.history = solution.contact.history;
-  result.step_length = solution.contact.step_length;
+  if (last.certificate)
+    result.certified = last.certificate->error;
   if (scene.load && scene.nip)
-    result.modulus_ratio = scene.units.material.shear_modulus / options.material.shear_modulus;
-  result.is_interrupted = is_interrupted;
+    result.modulus_ratio = scene.units.material.shear_modulus / run.options.material.shear_modulus;
+  result.cycles = std::move(run.cycles);
+  result.is_interrupted = last.is_interrupted;
   result.contact_rows = tabulate_contact(solution.boundary, solution.problem, state);
   result.surface = tabulate_surface(solution.boundary, solution.displacement,
                                     solution.problem.pressures(state.force));
-  result.notes = solution.notes;
-  for (Note& note : notes_on(options, mesh, solution, result))
-    result.notes.push_back(std::move(note));
-  result.statistics = std::move(statistics);
-  return result;
+  const auto notes = notes_on(run.options, run.mesh, solution, result);
+  result.notes.insert(result.notes.end(), notes.begin(), notes.end());
+  result.statistics = std::move(run.statistics);
+  return {scene, std::move(run.mesh), std::move(solution.displacement), std::move(last.certificate),
+          std::move(result)};
 }
 
 } // namespace rollwave

@@ -18,4 +18,7 @@ struct Note {
 /// The texts of the notes of a kind.
 std::vector<std::string> texts_of(const std::vector<Note>& notes, Note::Kind kind);
 
+/// The shortfalls with "; " between them.
+std::string shortfall_text(const std::vector<Note>& notes);
+
 } // namespace rollwave
