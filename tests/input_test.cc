@@ -45,9 +45,7 @@ void expect_accepted_or_refused(const std::string& text) {
     EXPECT_LT(scene.inner_radius, scene.outer_radius);
     EXPECT_LT(scene.zone_begin, scene.zone_end);
     EXPECT_TRUE(std::isfinite(scene.phi((scene.zone_begin + scene.zone_end) / 2)));
-    if (scene.force && scene.force.uniform) {
-      EXPECT_FALSE(std::isnan(scene.force(scene.outer_radius, scene.zone_begin)));
-    }
+    EXPECT_FALSE(std::isnan(scene.force.uniform.value_or(0)));
     const std::string complete = printed(settings);
     EXPECT_EQ(printed(parse_settings(complete, "input")), complete);
   } catch (const BadInput& refusal) {

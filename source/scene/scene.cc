@@ -136,10 +136,8 @@ BodyForce make_force(const CylinderOptions& cylinder, const Units& units) {
     force.density = [unit = units.length, density, f = parse_force(cylinder)](double r, double z) {
       return f(unit * r, z) / density;
     };
-  else if (*uniform != 0) { // for 0 no load is ever assembled
+  else if (*uniform != 0) // for 0 no load is ever assembled
     force.uniform = *uniform / density;
-    force.density = [f = *force.uniform](double, double) { return f; };
-  }
   return force;
 }
 
@@ -195,7 +193,7 @@ Scene scaled_scene(const CylinderOptions& cylinder, const RoadOptions& road,
     scene.load = Scene::Load{*road.load / scene.units.of(Quantity::force), road.load_kind};
   if (road.nip)
     scene.nip = *road.nip / unit;
-  if (scene.load && scene.nip && (scene.force.uniform || scene.force.is_expression()))
+  if (scene.load && scene.nip && scene.force)
     throw BadValue(
         "Road", "Nip",
         "load and nip calibrate the shear modulus where Cylinder/Radial force is 0 only: "

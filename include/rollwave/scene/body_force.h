@@ -7,18 +7,18 @@ namespace rollwave {
 
 /// The radial force density f(r, z) of a scene, positive outwards.
 struct BodyForce {
-  /// f, a pressure over a length, for z in [0, 2 pi); empty without a force.
-  std::function<double(double r, double z)> density = {};
-
-  /// f where it is a constant that is known, so that its integrals need no quadrature.
+  /// f, a pressure over a length, where it is a constant, so that its integrals need no quadrature.
   std::optional<double> uniform = {};
 
+  /// f where it is an expression, for z in [0, 2 pi).
+  std::function<double(double r, double z)> density = {};
+
   /// True if there is a force.
-  explicit operator bool() const { return density != nullptr; }
+  explicit operator bool() const { return uniform || density; }
 
-  bool is_expression() const { return density && !uniform; }
+  bool is_expression() const { return density != nullptr; }
 
-  double operator()(double r, double z) const { return density(r, z); }
+  double operator()(double r, double z) const { return uniform ? *uniform : density(r, z); }
 };
 
 } // namespace rollwave
