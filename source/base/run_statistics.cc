@@ -34,7 +34,8 @@ RunStatistics::Phase::Phase(RunStatistics& statistics, const std::string& name)
 }
 
 RunStatistics::Phase::~Phase() {
-  const double all = timer.wall_time();
+  const double all =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   statistics.seconds_of[name] += all - inner_seconds;
   if (statistics.observer)
     statistics.observer(name, all - inner_seconds);

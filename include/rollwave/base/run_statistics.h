@@ -1,7 +1,6 @@
 #pragma once
 
-#include <deal.II/base/timer.h>
-
+#include <chrono>
 #include <functional>
 #include <map>
 #include <optional>
@@ -45,7 +44,7 @@ public:
     const std::string name;
     Phase* const outer;
     double inner_seconds = 0;
-    dealii::Timer timer;
+    const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   };
 
   /// Wall seconds of a phase; nullopt if it has not been entered.
