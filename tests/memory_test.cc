@@ -31,6 +31,27 @@ protected:
     std::ofstream(root / file) << text;
   }
 
+  /// What a version of control groups calls limit and usage, writes for no limit, and has before
+  /// the memory of files that it can drop.
+  struct Words {
+    std::string limit, unlimited, usage, statistics;
+  };
+
+  /// Of two groups, one within the other, only the outer one has a limit.
+  void expect_limit_of_outer_group(const fs::path& outer, const std::string& inner,
+                                   const Words& words) const {
+    write(outer / inner / words.limit, words.unlimited + '\n');
+    write(outer / inner / words.usage, "200000\n");
+    EXPECT_EQ(available_memory(root), 3000 * 1024);
+    write(outer / words.limit, "1000000\n");
+    write(outer / words.usage, "300000\n");
+    EXPECT_EQ(available_memory(root), 700000);
+    write(outer / "memory.stat", words.statistics + " 50000\n");
+    EXPECT_EQ(available_memory(root), 750000);
+    write(outer / words.usage, "1200000\n");
+    EXPECT_EQ(available_memory(root), 0);
+  }
+
   const fs::path root;
 };
 
@@ -42,29 +63,15 @@ TEST_F(Memory, IsWhatTheMachineHasWithoutGroups) {
 
 TEST_F(Memory, IsLimitedByGroupsOfVersion1) {
   write("proc/self/cgroup", "5:cpu:/a/b\n4:hugetlb,memory:/slurm/job/step\n0::/\n");
-  const fs::path job = "sys/fs/cgroup/memory/slurm/job";
-  write(job / "step/memory.limit_in_bytes", "9223372036854771712\n");
-  write(job / "step/memory.usage_in_bytes", "200000\n");
-  EXPECT_EQ(available_memory(root), 3000 * 1024);
-  write(job / "memory.limit_in_bytes", "1000000\n");
-  write(job / "memory.usage_in_bytes", "300000\n");
-  EXPECT_EQ(available_memory(root), 700000);
-  write(job / "memory.stat", "inactive_file 1\ntotal_inactive_file 50000\n");
-  EXPECT_EQ(available_memory(root), 750000);
-  write(job / "memory.usage_in_bytes", "1200000\n");
-  EXPECT_EQ(available_memory(root), 0);
+  expect_limit_of_outer_group("sys/fs/cgroup/memory/slurm/job", "step",
+                              {"memory.limit_in_bytes", "9223372036854771712",
+                               "memory.usage_in_bytes", "inactive_file 1\ntotal_inactive_file"});
 }
 
 TEST_F(Memory, IsLimitedByGroupsOfVersion2) {
   write("proc/self/cgroup", "0::/user.slice/run.scope\n");
-  const fs::path slice = "sys/fs/cgroup/user.slice";
-  write(slice / "run.scope/memory.max", "max\n");
-  write(slice / "run.scope/memory.current", "200000\n");
-  EXPECT_EQ(available_memory(root), 3000 * 1024);
-  write(slice / "memory.max", "1000000\n");
-  write(slice / "memory.current", "300000\n");
-  write(slice / "memory.stat", "anon 7\ninactive_file 50000\n");
-  EXPECT_EQ(available_memory(root), 750000);
+  expect_limit_of_outer_group("sys/fs/cgroup/user.slice", "run.scope",
+                              {"memory.max", "max", "memory.current", "anon 7\ninactive_file"});
 }
 
 // Its own group is the root that it sees, whatever the path is that the host gives it.
