@@ -38,7 +38,7 @@ std::string without_quotes(const std::string& text) {
 
 /// The values of "first : last : step", otherwise the text itself, which may be an expression with
 /// a colon. @throws BadInput for numbers that are no such range
-std::vector<std::string> values_of(const std::string& text) {
+std::vector<std::string> values_in(const std::string& text) {
   const auto parts = split(text, ':');
   const bool is_open = std::count(parts.begin(), parts.end(), "") > 0;
   std::vector<double> numbers;
@@ -95,7 +95,7 @@ Variation parse_variation(const std::string& text, const Setting& study) {
     else if (names.size() > 1)
       add(split_unquoted(choice, '&'));
     else
-      for (const std::string& value : values_of(choice))
+      for (const std::string& value : values_in(choice))
         add({value});
   if (variation.empty())
     throw BadInput(in_quotes(text) + " gives no value");

@@ -162,7 +162,7 @@ bool is_empty(const Panel& panel) {
 }
 
 /// The pressure of a run over the length along the road, in the user's units.
-std::vector<CurvePoint> profile_of(const Study& study, unsigned int run) {
+std::vector<CurvePoint> points_of_profile(const Study& study, unsigned int run) {
   std::vector<CurvePoint> points;
   for (const ProfilePoint& point : study.runs[run]->profile)
     points.push_back({point.road_length, point.pressure});
@@ -185,7 +185,7 @@ Panel profile_panel(const Study& study, std::string& title) {
       if (!study.runs[run] || study.runs[run]->profile.empty())
         continue;
       panel.curves.push_back(
-          {label(study.plans[run], study.plans[run].varied), profile_of(study, run)});
+          {label(study.plans[run], study.plans[run].varied), points_of_profile(study, run)});
       if (choices.size() > 1 && values.size() > 1)
         panel.curves.back().style = LineStyle{k, i};
     }

@@ -156,8 +156,7 @@ std::string study_text(const Study& study) {
            "distance.\n";
   if (has_one_modulus_for_covers(study))
     out << "Note: the thickness varies under one shear modulus, which is an effective one: "
-           "calibrate "
-           "it anew for each thickness, by Road/Load and Road/Nip.\n";
+           "calibrate it anew for each thickness, by Road/Load and Road/Nip.\n";
   print_first(out, "Not solved", failures, study.runs.size());
   print_first(out, "Target not reached", shortfalls, study.runs.size());
   print_first(out, "Note", remarks, study.runs.size());
