@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <malloc.h>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -97,6 +98,10 @@ double available_memory(const std::filesystem::path& root) {
 
 void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator) {
   constexpr double mebibyte = 1024. * 1024;
+  if (!holds_on_all(communicator, sum_on_machine(communicator, bytes) <= available_memory()))
+    // SuperLU_DIST, a library that comes with deal.II, lets malloc keep all memory that is freed.
+    malloc_trim(0);
+  // All processes of a machine have come here before they know the sum.
   const double needed = sum_on_machine(communicator, bytes), available = available_memory();
   std::ostringstream lack;
   lack.precision(3);
