@@ -188,7 +188,7 @@ Vector<double> CondensedSystem::residual(const Vector<double>& load,
 
 double dense_bytes(double n_kept, double n_interface) {
   constexpr double n_matrices = 3;              // L, S, and a block of S
-  constexpr double n_matrices_of_trilinos = 14; // T_p, T, its triplets and its factor, as measured
+  constexpr double n_matrices_of_trilinos = 30; // T_p, T, its copies and its factor, as measured
   return sizeof(double) *
          (n_matrices * n_kept * n_kept + n_matrices_of_trilinos * n_interface * n_interface);
 }

@@ -56,7 +56,6 @@ InterfaceSolver::InterfaceSolver(const std::vector<types::global_dof_index>& row
   if (!mumps)
     throw NotSolved("Trilinos has been built without MUMPS, which several processes need");
   Teuchos::ParameterList parameters;
-  parameters.set("MatrixProperty", "SPD");
   // MUMPS reckons its memory from the analysis and spreads the work as it goes: with the usual 20 %
   // more than reckoned it runs short now and then on 16 processes.
   parameters.sublist("mumps").set("ICNTL(14)", 200);
