@@ -295,7 +295,7 @@ def phases():
                                  'Output/Files': 'summary, contact, solution'}, repeats=2)
         seconds = run['seconds']
         rows.append([f'Q{degree}', run['mesh']['dofs'],
-                     *[sum(seconds[phase] or 0. for phase in group) for group in (
+                     *[sum(seconds.get(phase) or 0. for phase in group) for group in (
                          ['mesh', 'space'], ['assembly'], ['ordering', 'factorisation'], ['contact'],
                          ['back-substitution', 'measurement'], ['certificate'], ['output'],
                          ['total'])], round(run['peak_memory_mib'])])
