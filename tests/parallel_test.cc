@@ -183,8 +183,8 @@ TEST_F(Processes, ReportBadInputOnce) {
 
 TEST_F(Processes, EndTogetherWhenOneIsKilled) {
   const std::string run = "$rollwave " + scene +
-                          " --set Mesh/Degree=2 --set \"Mesh/Radial cells=100\" --set "
-                          "\"Mesh/Angular cells=1000\"";
+                          " --set Mesh/Degree=2 --set \"Mesh/Radial cells=200\" --set "
+                          "\"Mesh/Angular cells=2000\"";
   std::ofstream(directory / "rank.sh")
       << "if [ $OMPI_COMM_WORLD_RANK = 1 ]; then " << run
       << " & sleep 2; kill -9 $!; wait $!; kill -9 $$; fi\nexec " << run << '\n';
