@@ -53,8 +53,8 @@ double contact_seconds(const Scene& scene, const Parameters& parameters) {
   // Made anew, so that the time includes the order of elimination.
   const MeshAndSpace ring(scene, parameters);
   RunStatistics statistics;
-  const System system = make_system(ring.space, scene, scene.zone(), statistics);
-  solve_on_mesh(system, nullptr, scene, parameters.contact, {}, statistics);
+  const MeshObjects objects = {make_system(ring.space, scene, scene.zone(), statistics)};
+  solve_on_mesh(objects, scene, parameters.contact, {}, statistics);
   return statistics.total_seconds() - statistics.seconds("assembly").value_or(0);
 }
 
