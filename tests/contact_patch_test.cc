@@ -71,6 +71,15 @@ TEST(ContactPatch, LawNearTheCriticalSpeedDependsOnTheNodeDistance) {
   EXPECT_NE(end_at(0.999), end_at(0.5));
 }
 
+// One free node is left, so that pressures alone place the end. At the critical speed they fall
+// faster towards it, and the same pressures have their end farther out.
+TEST(ContactPatch, SamePressuresEndFartherOutAtTheCriticalSpeed) {
+  const auto end_at = [](double omega) {
+    return patch_of(4.2137, 5.78, 0.5, omega, 3.6, 5.8, 60).ends->second;
+  };
+  EXPECT_GT(end_at(1), end_at(0.5));
+}
+
 TEST(ContactPatch, EndsWithTheZoneWhereItCutsContactShort) {
   const auto patch = patch_of(3, 4.9, 0.5, 0.5, 3.6, 5.8, 60);
   EXPECT_EQ(patch.ends->first, 3.6);
