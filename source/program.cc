@@ -28,7 +28,7 @@ namespace rollwave {
 
 namespace {
 
-/// What the parts of a call share.
+/// One call of the program: what was asked for, and where its results go.
 struct Call {
   const CommandLine& line;
   const Parameters& parameters;

@@ -31,13 +31,13 @@ protected:
     std::ofstream(root / file) << text;
   }
 
-  /// What a version of control groups calls limit and usage, writes for no limit, and has before
-  /// the memory of files that it can drop.
+  /// The words of one version of control groups: the names of its files of limit and usage, its
+  /// text for "no limit", and the beginning of memory.stat up to the memory of cached files.
   struct Words {
     std::string limit, unlimited, usage, statistics;
   };
 
-  /// Of two groups, one within the other, only the outer one has a limit.
+  /// Two groups, one within the other: the outer one has a limit, the inner one has none.
   void expect_limit_of_outer_group(const fs::path& outer, const std::string& inner,
                                    const Words& words) const {
     write(outer / inner / words.limit, words.unlimited + '\n');

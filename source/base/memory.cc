@@ -98,11 +98,13 @@ double available_memory(const std::filesystem::path& root) {
 
 void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator) {
   constexpr double mebibyte = 1024. * 1024;
-  if (!holds_on_all(communicator, sum_on_machine(communicator, bytes) <= available_memory()))
+  const double needed = sum_on_machine(communicator, bytes);
+  if (!holds_on_all(communicator, needed <= available_memory())) {
     // SuperLU_DIST, a library that comes with deal.II, lets malloc keep all memory that is freed.
     malloc_trim(0);
-  // All processes of a machine have come here before they know the sum.
-  const double needed = sum_on_machine(communicator, bytes), available = available_memory();
+    holds_on_all(communicator, true); // waits until all processes have given theirs back
+  }
+  const double available = available_memory();
   std::ostringstream lack;
   lack.precision(3);
   if (needed > available)

@@ -39,10 +39,10 @@ struct Profile {
 
   /// How far an end is behind the node @p i when this enters contact, an angle.
   double shift(int i) const {
-    const double edge = angle[i + has_node(i + 1)] - angle[i],
-                 edge_before = angle[i] - angle[i - has_node(i - 1)];
-    const double shortest = edge > 0 && edge_before > 0 ? std::min(edge, edge_before) : 0;
-    return std::min(end_shift * (edge + edge_before) / 2, shortest / 2);
+    if (!has_node(i - 1) || !has_node(i + 1))
+      return 0;
+    const double before = angle[i] - angle[i - 1], after = angle[i + 1] - angle[i];
+    return std::min({end_shift * (before + after) / 2, before / 2, after / 2});
   }
 
   /// The last angle in the direction @p out (-1 or 1) at which contact can end: that of the zone,
@@ -87,9 +87,11 @@ PatchEnd find_end(const Profile& nodes, int i, int out) {
                            : nodes.has_node(inner) ? z[inner]
                                                    : reach;
   const double edge = std::abs(neighbour - z[i]), s = end_exponent(nodes.scene, edge);
-  const double room = std::abs(reach - z[i]), first = -nodes.shift(i);
+  // Distances are from the node i. The end is at first when i enters contact, and at last when the
+  // next node does.
   const auto distance = [&](int k) { return std::abs(z[k] - z[i]); };
-  const double last = nodes.has_node(near) ? edge - nodes.shift(near) : room;
+  const double room = std::abs(reach - z[i]), first = -nodes.shift(i),
+               last = nodes.has_node(near) ? edge - nodes.shift(near) : room;
   const auto pressure_at = [&](double d) { return std::pow(d, 1 - s); };
   const auto gap_at = [&](double d) { return std::pow(d, 1 + s); };
 
@@ -143,19 +145,19 @@ ContactPatch measure_patch(const Profile& nodes, const Vector<double>& force,
     return nodes.road.arc_length(from_lowest_point(to)) -
            nodes.road.arc_length(from_lowest_point(from));
   };
-  // The road is the steeper, the farther out.
-  const double least_begin = std::max(begin.angle - begin.uncertainty, nodes.reach(-1)),
-               largest_end = std::min(end.angle + end.uncertainty, nodes.reach(1));
+  // Farther out the road is steeper.
+  const auto road_uncertainty = [&](const PatchEnd& of) {
+    const double least = std::max(of.angle - of.uncertainty, nodes.reach(-1)),
+                 largest = std::min(of.angle + of.uncertainty, nodes.reach(1));
+    return std::max(road_between(least, of.angle), road_between(of.angle, largest));
+  };
   ContactPatch patch = {};
   patch.begin = begin.angle;
   patch.begin_uncertainty = begin.uncertainty;
   patch.end = end.angle;
   patch.end_uncertainty = end.uncertainty;
   patch.length = road_between(patch.begin, patch.end);
-  patch.length_uncertainty = std::max(road_between(least_begin, begin.angle),
-                                      road_between(begin.angle, begin.angle + begin.uncertainty)) +
-                             std::max(road_between(end.angle, largest_end),
-                                      road_between(end.angle - end.uncertainty, end.angle));
+  patch.length_uncertainty = road_uncertainty(begin) + road_uncertainty(end);
   for (int i = stretch.first; i <= stretch.last; ++i) {
     patch.force += force(i);
     patch.centroid += force(i) * nodes.angle[i];

@@ -118,10 +118,11 @@ ContactStep project(const ContactProblem& problem, double rho, Vector<double>& p
   return step;
 }
 
-/// What residuals are relative to, in the l2 norm of the contact nodes: the displacement by contact
-/// or, if that is smaller, displacement and road at the nodes that are pressed. A light contact on
-/// a large displacement needs the first. Under a large force contact takes nearly all of it back,
-/// and needs the second. The displacement alone may pass through zero on its way.
+/// The size by which residuals are divided, an l2 norm over the contact nodes. It is the smaller of
+/// two: that of the displacement by contact, which a light contact on a large displacement needs,
+/// and that of displacement and road at the pressed nodes. Under a large force, contact takes
+/// nearly all of the displacement back, and needs the second. The displacement alone may pass
+/// through zero on its way.
 /// @param free the displacement without contact
 double size_for_residuals(const ContactProblem& problem, const ContactSolution& solution,
                           const Vector<double>& free) {

@@ -220,9 +220,9 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
   if (is_interrupted(communicator))
     throw Interrupted("interrupted before the first mesh was solved");
   Run run = {options, std::move(mesh), std::move(statistics)};
+  std::optional<LastSolution> last;
   try {
-    LastSolution last = solve_and_refine(run, scene, most_cycles(options.mesh), progress);
-    return solve_best(finish(std::move(run), std::move(last)), scene, options);
+    last.emplace(solve_and_refine(run, scene, most_cycles(options.mesh), progress));
   } catch (const NotEnoughMemory& shortage) {
     if (run.cycles.empty())
       throw;
@@ -230,6 +230,7 @@ Solution simulate(const Scene& scene, const RunOptions& options, MPI_Comm commun
     throw NotSolved("after a mesh of " + solved + " unknowns: " + shortage.reason +
                     "; set Mesh/Most unknowns to " + solved + " to end there");
   }
+  return solve_best(finish(std::move(run), std::move(*last)), scene, options);
 }
 
 Solution solve_on_shared(Run run, MeshObjects& shared, const Scene& scene) {
