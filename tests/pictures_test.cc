@@ -284,6 +284,13 @@ TEST_F(Pictures, PanelsWithoutValuesLeaveTheOthers) {
   EXPECT_TRUE(has("study-curves.svg"));
 }
 
+TEST_F(Pictures, OnePointIsNoCurve) {
+  run({"Study/Vary=Road/Distance = 0.8; Cylinder/Angular velocity = 0.5", "Mesh/Degree=1",
+       "Mesh/Radial cells=2", "Mesh/Angular cells=48", "Output/Files=plot"});
+  EXPECT_FALSE(has("study-curves.svg"));
+  EXPECT_TRUE(has("study-profiles.svg"));
+}
+
 TEST_F(Pictures, LongNamesHaveRoomInTheLegend) {
   for (const unsigned int length : {20, 80, 200}) {
     const std::string name(length, 'n');

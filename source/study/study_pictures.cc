@@ -245,7 +245,7 @@ void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& 
   if (const auto map = map_of_result(study, title))
     pictures.push_back(*map);
   if (!is_over_method) {
-    if (!x.empty())
+    if (!x.empty() && study.n_fastest > 1) // one point is no curve
       add("study-curves", curve_panels(study, x), title);
     std::string title_of_profiles = title;
     const Panel profiles = profile_panel(study, title_of_profiles);
