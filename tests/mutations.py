@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """Small faults in the mathematics, each of which a test must find: a sign, a factor, an index.
 
-Usage: mutations.py BUILD      in a clone of its own, whose sources it changes and restores
+Usage: mutations.py BUILD [FILES]      in a clone of its own, whose sources it changes and restores
+
+FILES is a regular expression, as in mutations.py build contact/.
 """
+import os
 import pathlib
 import re
 import subprocess
@@ -88,13 +91,44 @@ MUTATIONS = [  # file, what stands there, the fault
     ('run/simulation', 'run.cycles.size() > most_refinements', 'run.cycles.size() >= most_refinements'),
     ('study/study_solver', 'one.cylinder.radial_force == other.cylinder.radial_force &&', ''),
 ]
-TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffness*:Load.*:Road.*:FullContact*:Contact*:'
-         '*Space*:*Condensation*:CholmodFactor*:LeaveOut*:Sweep*:Marking*:Certificate.*:LoadBounds.*:AdmissiblePressure.*:ForceIntegral*:Stability.*:ExactSolution*:Bessel*:Gegenbauer*:ManufacturedScene*:TrueErrors*:Random*')
+# The tests that find most faults of a module run first.
+TESTS_OF = {'contact': 'ContactPatch*:ActiveSet*:Uzawa*:Drum*:Patches*:FullContact*:Load.*',
+            'base': 'FallingZero*:Load.*',
+            'error_bound': 'AdmissiblePressure.*:ForceIntegral*:LoadBounds.*:Certificate.*',
+            'exact': 'Bessel*:Gegenbauer*:ExactSolution*:FindExactSolution*',
+            'solver': '*Condensation*:CholmodFactor*:FullContact*:Sweep.*:Stiffness*',
+            'mesh': '*Space*:NestedDissection*:FirstMesh*:ContactPatch*:FullContact*',
+            'adapt': 'Marking*:Refinement*',
+            'run': 'Simulation*:LeaveOut*:FullContact*',
+            'study': 'Sweep*:RepeatedStudy*'}
+ALL_TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffness*:Load.*:Road.*:FullContact*:Contact*:'
+             '*Space*:*Condensation*:CholmodFactor*:LeaveOut*:Sweep*:Marking*:Certificate.*:LoadBounds.*:'
+             'AdmissiblePressure.*:ForceIntegral*:Stability.*:ExactSolution*:Bessel*:Gegenbauer*:ManufacturedScene*:'
+             'TrueErrors*:Random*')
 
 build = pathlib.Path(sys.argv[1]).resolve()
+files = re.compile(sys.argv[2] if len(sys.argv) > 2 else '')
 root = pathlib.Path(__file__).resolve().parent.parent
+os.environ['OPENBLAS_NUM_THREADS'] = '1'
+
+
+def first_failure():
+    """The name of a test that fails, or how the tests ended; empty if all pass."""
+    commands = [['timeout', '600', build / 'tests/rollwave_tests', '--gtest_brief=1', '--gtest_fail_fast',
+                 f'--gtest_filter={tests}'] for tests in (TESTS_OF[name.split('/')[0]], ALL_TESTS)]
+    commands.append(['ctest', '--test-dir', build, '-R', 'substructures', '-V', '--timeout', '30'])
+    for command in commands:
+        run = subprocess.run(command, capture_output=True, text=True)
+        if run.returncode != 0:
+            failed = re.findall(r'FAILED  \] (\S+)', run.stdout)
+            return failed[0] if failed else f'exit code {run.returncode}'
+    return ''
+
+
 survivors = 0
 for name, right, wrong in MUTATIONS:
+    if not files.search(name):
+        continue
     path = root / f'source/{name}.cc'
     original = path.read_text()
     if right not in original:
@@ -104,18 +138,10 @@ for name, right, wrong in MUTATIONS:
     path.write_text(original.replace(right, wrong, 1))
     try:
         built = subprocess.run(['cmake', '--build', build, '--target', 'rollwave_tests'], capture_output=True)
-        run = subprocess.run(['timeout', '600', build / 'tests/rollwave_tests', '--gtest_brief=1',
-                              '--gtest_fail_fast', f'--gtest_filter={TESTS}'], capture_output=True, text=True)
-        if run.returncode == 0:
-            run = subprocess.run(['ctest', '--test-dir', build, '-R', 'substructures', '-V', '--timeout', '30'],
-                                 capture_output=True, text=True)
+        failure = first_failure() if built.returncode == 0 else ''
     finally:
         path.write_text(original)
-    if built.returncode != 0:
-        print(f'not built   {name}: {wrong}', flush=True)
-        continue
-    failed = re.findall(r'FAILED  \] (\S+)', run.stdout)
-    survivors += run.returncode == 0
-    print(f'{"SURVIVED" if run.returncode == 0 else "caught  "}    {name}: {wrong}    '
-          f'{failed[0] if failed else f"exit code {run.returncode}"}', flush=True)
+    survivors += failure == ''
+    verdict = 'not built' if built.returncode != 0 else 'caught' if failure else 'SURVIVED'
+    print(f'{verdict:9}   {name}: {wrong}    {failure}', flush=True)
 sys.exit(survivors > 0)
