@@ -31,10 +31,9 @@ bool is_launched_by_mpi() {
   return std::getenv("PMIX_RANK") != nullptr;
 }
 
-void run_action(const std::string& program, const std::vector<std::string>& arguments,
-                MPI_Comm communicator, std::ostream& out) {
-  CommandLine line = read_command_line(arguments);
-  line.program = program;
+void run_action(const std::vector<std::string>& arguments, MPI_Comm communicator,
+                std::ostream& out) {
+  const CommandLine line = read_command_line(arguments);
   switch (line.action) {
   case CommandLine::Action::help:
     out << usage();
@@ -87,7 +86,7 @@ int main(int argc, char* argv[]) {
     if (!has_memory)
       throw NotSolved("not enough memory; raise the limit of the address space (ulimit -v)");
     std::ostream silence(nullptr);
-    run_action(argv[0], {argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
+    run_action({argv + 1, argv + argc}, mpi ? MPI_COMM_WORLD : MPI_COMM_SELF,
                rank == 0 ? std::cout : silence);
     if (rank == 0 && !(std::cout << std::flush))
       throw NotWritten("the standard output could not be written to");

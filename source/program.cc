@@ -37,15 +37,14 @@ struct Call {
   std::ostream& out;
 };
 
-/// The last line of a call that makes a part of a study, with the call that joins the parts.
+/// The last line of a call that makes a part of a study.
 void report_part(const Call& call, const Study& study, unsigned int n_made) {
   call.out << "\nPart " << study.part->number << " of " << study.part->count << ": ";
   if (study.wanted_runs().empty())
     call.out << "no runs, since the study has " << study.plans.size();
   else
     call.out << n_made << " runs made, " << study.n_ended() - n_made << " reused";
-  call.out << ". When all parts have ended, join them with: " << call.line.program << ' '
-           << std::filesystem::path(call.parameters.output.directory) / "parameters.prm"
+  call.out << ". When all parts have ended, the same command without --part joins them."
            << std::endl;
 }
 
@@ -93,9 +92,12 @@ void verify(const Call& call, Solution& solution) {
 
 void solve_scene(const Call& call, const Scene& scene) {
   report_scene(call.out, scene, call.parameters);
-  if (call.parameters.study.true_errors)
-    call.out << "Note: Study/True errors does nothing without Study/Vary or Study/Scenes; --verify "
-                "compares a single scene with its exact solution\n";
+  for (const Setting& setting : call.parameters.settings)
+    if (setting.section == "Study" && setting.value != key_of(setting).default_value)
+      call.out << "Note: " << setting.path() << " does nothing without Study/Vary or Study/Scenes"
+               << (call.parameters.study.true_errors
+                       ? "; --verify compares a single scene with its exact solution\n"
+                       : "\n");
   Solution solution =
       simulate(scene, call.parameters, call.communicator, report_progress(call.out, scene));
   report_result(call.out, solution.result, solution.scene.units);

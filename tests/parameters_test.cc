@@ -165,6 +165,13 @@ TEST(Parameters, NumbersHaveOneSpelling) {
   EXPECT_EQ(parameters_of({"Cylinder/Outer radius=1e15"}).settings.at(0).value, "1e+15");
 }
 
+// Together they calibrate the modulus.
+TEST(Parameters, AcceptALoadOfAScenesWithNipsThatVary) {
+  const Parameters parameters =
+      parameters_of({"Study/Scenes=a: Road/Load = 0.3", "Study/Vary=Road/Nip = 0.8 | 0.9"});
+  EXPECT_EQ(plan_runs(parameters).size(), 2u);
+}
+
 TEST(Parameters, RefuseAKeyTwice) {
   for (const auto& [scenes, vary] : std::vector<std::pair<std::string, std::string>>{
            {"one: Mesh/Degree = 1 & Mesh/Degree = 2", ""},

@@ -323,6 +323,23 @@ TEST_F(Pictures, MapHasACellForEachRow) {
   }
 }
 
+// Keys that vary together repeat a number of the first one: two runs would share a cell.
+TEST_F(Pictures, NoMapWhereRunsShareACell) {
+  run({"Study/Vary=Road/Distance & Cylinder/Inner radius = 0.78 & 0.5 | 0.78 & 0.4 | 0.8 & 0.5 | "
+       "0.82 & 0.5 | 0.84 & 0.5 | 0.86 & 0.5 | 0.88 & 0.5 | 0.9 & 0.5; "
+       "Cylinder/Angular velocity = 0 : 0.9 : 0.15",
+       "Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=24", "Output/Files=plot"});
+  EXPECT_FALSE(has("study-map.svg"));
+}
+
+TEST_F(Pictures, NoCurvesThatGoBackAndForth) {
+  run({"Study/Vary=Road/Distance & Cylinder/Inner radius = 0.9 & 0.5 | 0.8 & 0.5 | 0.9 & 0.4 | "
+       "0.8 & 0.4",
+       "Mesh/Degree=1", "Mesh/Radial cells=2", "Mesh/Angular cells=24", "Output/Files=plot"});
+  EXPECT_TRUE(has("study-profiles.svg"));
+  EXPECT_FALSE(has("study-curves.svg"));
+}
+
 // Six curves can be told apart.
 TEST_F(Pictures, CurvesTakeThePlaceOfAMapWithFewValuesOfAKey) {
   run({"Study/Vary=Road/Distance = 0.8 : 0.7 : -0.01; Cylinder/Angular velocity = 0 | 1",

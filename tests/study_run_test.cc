@@ -45,9 +45,7 @@ RunRecord some_record() {
                   {Note::Kind::remark, "\xff"}};
   record.profile = {{4.5, -0.2, 0}, {4.6, -0.1, 1. / 7}};
   record.files = {{OutputFile::parameters, OutputFile::surface},
-                  CellKind::linear,
-                  PictureFormat::svg,
-                  {"m", "s", "N"}};
+                  {{"Unit names", "m, s, N"}}};
   record.sizes = {{"surface.vtu", 3000000000}, {"road.vtu", 1}};
   return record;
 }
@@ -270,6 +268,22 @@ TEST_F(RepeatedStudy, IsThatOfItsParts) {
   }
 }
 
+// Run 2, which has the widest zone, belongs to the other part; run 3 has another system.
+TEST_F(RepeatedStudy, PartsWithGrowingZonesAreSolved) {
+  const std::vector<std::string> study = {
+      "Study/Vary=Road/Distance = 0.9 | 0.8; Cylinder/Angular velocity = 0.25 | 0.5",
+      "Road/Contact zone=auto"};
+  const std::vector<std::string> of_one_speed = {"Study/Vary=Road/Distance = 0.9 | 0.95 | 0.7"};
+  for (const auto& settings : {study, of_one_speed})
+    for (const StudyPart part : {StudyPart{1, 2}, StudyPart{2, 2}})
+      run(settings, part);
+  for (const auto& settings : {study, of_one_speed}) {
+    const Study made = known(settings);
+    for (unsigned int i = 0; i < made.plans.size(); ++i)
+      EXPECT_TRUE(made.value(i, "contact.force").value_or(0) > 0) << i;
+  }
+}
+
 TEST_F(RepeatedStudy, MakesRunsAgainThatLackFiles) {
   const std::string vary = "Study/Vary=Road/Distance = 0.9 | 0.7";
   const std::vector<std::string> study = {"Study/Files of each run=contact, solution", vary};
@@ -286,6 +300,7 @@ TEST_F(RepeatedStudy, MakesRunsAgainThatLackFiles) {
   std::ofstream(files / "contact.csv").close();
   EXPECT_EQ(run(study), 1u);
   EXPECT_GT(fs::file_size(files / "contact.csv"), 100u);
+  EXPECT_EQ(run({study[0], study[1], "Output/Picture format=pdf"}), 2u); // it has none
   // Other cells and names of units make other files.
   for (const char* const other : {"Output/Cells=linear", "Output/Unit names=m, s, N"}) {
     EXPECT_EQ(run({study[0], study[1], other}), 0u);

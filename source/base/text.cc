@@ -126,8 +126,8 @@ std::string rounded_by(double number, double uncertainty) {
 std::string with_uncertainty(double number, double uncertainty) {
   if (!(uncertainty > 0 && std::isfinite(uncertainty)))
     return rounded(number, 9) + " +- " + rounded(uncertainty, 1);
-  const auto [rounded_up, place] = rounded_uncertainty(uncertainty);
-  return rounded_to_place(number, place) + " +- " + rounded_to_place(rounded_up, place);
+  const auto [up, place] = rounded_uncertainty(uncertainty);
+  return rounded_to_place(number, place) + " +- " + rounded_to_place(up, place);
 }
 
 std::string shortest_text(double number) {

@@ -145,10 +145,11 @@ void report_patches(std::ostream& out, const ContactResultants& contact, const U
 std::string interval_text(const Interval& interval) {
   const auto place = [](double number) { return std::floor(std::log10(std::abs(number))); };
   const double width = interval.upper - interval.lower;
-  constexpr double all_digits = 17;
+  constexpr int most_digits = 17;
   const auto digits = [&](double end) {
-    return width > 0 && end != 0 ? int(std::clamp(place(end) - place(width) + 2, 2., all_digits))
-                                 : all_digits;
+    return width > 0 && end != 0
+               ? int(std::clamp(place(end) - place(width) + 2, 2., 1. * most_digits))
+               : most_digits;
   };
   return rounded_down(interval.lower, digits(interval.lower)) + " to " +
          rounded_up(interval.upper, digits(interval.upper));

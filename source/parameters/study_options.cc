@@ -142,19 +142,24 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
 } // namespace
 
 void check_scenes(const StudyOptions& study) {
-  // Distance, load and nip replace each other.
-  const auto place = [](const Setting& setting) {
+  // A distance takes the place of load and nip, and the other way round.
+  const auto keys_replaced_by = [](const Setting& setting) {
     const std::string path = setting.path();
-    return path == "Road/Load" || path == "Road/Nip" ? "Road/Distance" : path;
+    if (path == "Road/Distance")
+      return std::vector<std::string>{path, "Road/Load", "Road/Nip"};
+    return path == "Road/Load" || path == "Road/Nip"
+               ? std::vector<std::string>{path, "Road/Distance"}
+               : std::vector<std::string>{path};
   };
   std::set<std::string> varied;
   for (const Variation& variation : study.vary)
     for (const Setting& setting : variation.front())
-      varied.insert(place(setting));
+      for (const std::string& key : keys_replaced_by(setting))
+        varied.insert(key);
   for (const NamedScene& scene : study.scenes) {
     std::set<std::string> paths;
     for (const Setting& setting : scene.settings)
-      if (!paths.insert(setting.path()).second || varied.count(place(setting)))
+      if (!paths.insert(setting.path()).second || varied.count(setting.path()))
         throw RefusedSetting(setting, "the scene " + in_quotes(scene.name) +
                                           " or Study/Vary gives the key another value");
   }

@@ -129,10 +129,6 @@ bool is_last(const Run& run, const std::optional<Certificate>& certificate,
          is_reached(run.options, certificate) || has_stalled(run.options, run.cycles);
 }
 
-std::string interrupted_text(unsigned int n_meshes) {
-  return "interrupted after " + std::to_string(n_meshes) + (n_meshes == 1 ? " mesh" : " meshes");
-}
-
 /// Computes the stiffness of the loads, where the mesh resolves it.
 void add_stiffness(const MeshObjects& objects, MeshSolution& solution, RunStatistics& statistics) {
   const RunStatistics::Phase phase(statistics, "measurement");
@@ -167,7 +163,8 @@ LastSolution solve_and_refine(Run& run, Scene scene, unsigned int most_refinemen
     const bool ends = is_last(run, certificate, most_refinements);
     const bool is_stopped = !ends && is_interrupted(run.mesh.communicator());
     if (is_stopped)
-      solution.result.notes.push_back({Note::Kind::shortfall, interrupted_text(run.cycles.size())});
+      solution.result.notes.push_back(
+          {Note::Kind::shortfall, "interrupted on mesh " + std::to_string(run.cycles.size())});
     bool goes_on = !ends && !is_stopped;
     if (goes_on) {
       scene = solution.scene;
@@ -202,6 +199,8 @@ Solution solve_best(Solution last, const Scene& scene, const RunOptions& options
   Run run = {options, std::move(mesh), std::move(statistics)};
   LastSolution on_best = solve_and_refine(run, scene, best, {});
   Solution solution = finish(std::move(run), std::move(on_best));
+  if (solution.result.is_interrupted) // on an earlier mesh
+    return solution;
   solution.result.notes.push_back(
       {Note::Kind::remark, "further meshes had larger bounds, up to " +
                                rounded(*cycles.back().certified, 3) + " on mesh " +

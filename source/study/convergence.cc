@@ -183,17 +183,21 @@ std::vector<Family> find_families(const Study& study) {
 
 Panel error_panel(const Study& study, const std::string& x, const std::string& x_label,
                   double order_factor) {
-  const ResultQuantity& error = result_quantity(
-      study.has("error.exact_relative") ? "error.exact_relative" : "error.certified_relative");
+  const std::string exact = "error.exact_relative", bound = "error.certified_relative";
+  const ResultQuantity& error = result_quantity(study.has(exact) ? exact : bound);
   Panel panel{x_label, error.words, {}, true, true};
   std::set<double> orders;
   for (const Family& family : find_families(study)) {
     if (x == "mesh.h_max" && family.is_adaptive)
       continue;
-    Curve curve{family.name, {}};
+    const bool is_exact =
+        std::any_of(family.runs.begin(), family.runs.end(),
+                    [&](unsigned int run) { return study.value(run, exact).has_value(); });
+    Curve curve{family.name + (study.has(exact) && !is_exact ? ", bound" : ""), {}};
     for (const unsigned int run : family.runs) {
-      if (study.value(run, x) && study.value(run, error.name))
-        curve.points.push_back({*study.value(run, x), *study.value(run, error.name)});
+      const auto value = study.value(run, is_exact ? exact : bound);
+      if (study.value(run, x) && value)
+        curve.points.push_back({*study.value(run, x), *value});
       if (const auto order = study.value(run, "error.expected_order"); order && order_factor != 0)
         orders.insert(*order);
     }

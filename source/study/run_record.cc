@@ -2,11 +2,13 @@
 
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/version.h"
+#include "rollwave/parameters/key.h"
 #include "rollwave/run/quantities.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 
 namespace rollwave {
@@ -21,26 +23,6 @@ fs::path path_of_record(const fs::path& directory, const std::string& digest) {
   return directory / "runs" / (digest + ".json");
 }
 
-Json files_json(const RunRecord& record) {
-  const UnitNames& names = record.files.unit_names;
-  return {{"kinds", text_of(record.files.kinds)},
-          {"linear_cells", record.files.cells == CellKind::linear},
-          {"picture_format", static_cast<int>(record.files.picture_format)},
-          {"unit_names", {names.length, names.time, names.force}},
-          {"bytes", record.sizes}};
-}
-
-/// @throws Json::exception, std::invalid_argument for another text
-void read_files(const Json& json, RunRecord& record) {
-  record.files.kinds = parse_files(json.at("kinds").get<std::string>());
-  record.files.cells =
-      json.at("linear_cells").get<bool>() ? CellKind::linear : CellKind::high_order;
-  record.files.picture_format = static_cast<PictureFormat>(json.at("picture_format").get<int>());
-  const Json& names = json.at("unit_names");
-  record.files.unit_names = {names.at(0), names.at(1), names.at(2)};
-  json.at("bytes").get_to(record.sizes);
-}
-
 /// True if all files of a record are in its directory, with their sizes.
 bool has_files(const RunRecord& record, const fs::path& own_directory) {
   return std::all_of(record.sizes.begin(), record.sizes.end(), [&](const auto& file) {
@@ -52,23 +34,29 @@ bool has_files(const RunRecord& record, const fs::path& own_directory) {
 } // namespace
 
 bool OwnFiles::include(const OwnFiles& wanted) const {
-  return wanted.kinds.empty() ||
-         (form() == wanted.form() &&
-          std::includes(kinds.begin(), kinds.end(), wanted.kinds.begin(), wanted.kinds.end()));
+  return std::includes(kinds.begin(), kinds.end(), wanted.kinds.begin(), wanted.kinds.end()) &&
+         std::includes(form.begin(), form.end(), wanted.form.begin(), wanted.form.end());
 }
 
-OwnFiles wanted_files(const Parameters& study) {
-  return {study.study.files_of_each_run, study.output.cells, study.output.picture_format,
-          study.material.unit_names};
+OwnFiles own_files(const Parameters& study, const std::set<OutputFile>& kinds) {
+  OwnFiles files = {kinds, {}};
+  const auto depend_on = [&](const std::string& name) {
+    const Key& key = key_of({"Output", name, "", ""});
+    files.form[name] = value_of(key, study.settings);
+  };
+  if (!kinds.empty())
+    depend_on("Unit names");
+  if (kinds.count(OutputFile::solution) > 0)
+    depend_on("Cells");
+  if (kinds.count(OutputFile::plot) > 0)
+    depend_on("Picture format");
+  return files;
 }
 
 std::string to_json(const RunRecord& record, const std::string& digest) {
-  std::vector<double> angles, road_lengths, pressures;
-  for (const ProfilePoint& point : record.profile) {
-    angles.push_back(point.angle);
-    road_lengths.push_back(point.road_length);
-    pressures.push_back(point.pressure);
-  }
+  std::vector<std::array<double, 3>> profile;
+  for (const auto& [angle, road_length, pressure] : record.profile)
+    profile.push_back({{angle, road_length, pressure}});
   Json json = {{"program", version_text()},
                {"run", digest},
                {"values", record.values},
@@ -76,11 +64,11 @@ std::string to_json(const RunRecord& record, const std::string& digest) {
                {"shortfalls", texts_of(record.notes, Note::Kind::shortfall)},
                {"remarks", texts_of(record.notes, Note::Kind::remark)},
                {"shared", record.shared},
-               {"profile_angles", angles},
-               {"profile_road_lengths", road_lengths},
-               {"profile_pressures", pressures}};
+               {"profile", profile}};
   if (!record.files.kinds.empty())
-    json["files"] = files_json(record);
+    json["files"] = {{"kinds", text_of(record.files.kinds)},
+                     {"form", record.files.form},
+                     {"bytes", record.sizes}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -95,12 +83,14 @@ std::optional<RunRecord> from_json(const std::string& text, const std::string& d
     for (const Json& text : all.at("remarks"))
       record.notes.push_back({Note::Kind::remark, text});
     all.at("shared").get_to(record.shared);
-    const Json &angles = all.at("profile_angles"), &road_lengths = all.at("profile_road_lengths"),
-               &pressures = all.at("profile_pressures");
-    for (std::size_t i = 0; i < angles.size(); ++i)
-      record.profile.push_back({angles.at(i), road_lengths.at(i), pressures.at(i)});
-    if (all.contains("files"))
-      read_files(all["files"], record);
+    for (const Json& point : all.at("profile"))
+      record.profile.push_back({point.at(0), point.at(1), point.at(2)});
+    if (all.contains("files")) {
+      const Json& files = all["files"];
+      record.files.kinds = parse_files(files.at("kinds").get<std::string>());
+      files.at("form").get_to(record.files.form);
+      files.at("bytes").get_to(record.sizes);
+    }
     const bool is_of_run = all.at("run") == digest && record.is_solved();
     return is_of_run ? std::optional(record) : std::nullopt;
   } catch (const Json::exception&) {

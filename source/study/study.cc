@@ -27,15 +27,19 @@ std::optional<double> Study::value(unsigned int run, const std::string& name) co
 
 bool Study::has(const std::string& name) const {
   for (unsigned int run = 0; run < runs.size(); ++run)
-    if (value(run, name).value_or(0) > 0)
+    if (value(run, name))
       return true;
   return false;
 }
 
 bool Study::is_of_scenes() const {
-  const auto& varied = plans.front().varied;
-  return std::all_of(varied.begin(), varied.end(), [](const Setting& setting) {
-    return key_of(setting).affects & Affects::scene;
+  const auto are_of_scene = [](const std::vector<Setting>& settings) {
+    return std::all_of(settings.begin(), settings.end(), [](const Setting& setting) {
+      return key_of(setting).affects & Affects::scene;
+    });
+  };
+  return std::all_of(plans.begin(), plans.end(), [&](const RunPlan& plan) {
+    return are_of_scene(plan.varied) && are_of_scene(plan.scene_settings);
   });
 }
 

@@ -1,15 +1,26 @@
 #include "rollwave/study/study_csv.h"
 
-#include "rollwave/base/csv.h"
 #include "rollwave/base/text.h"
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/replace.hpp>
+
+#include <algorithm>
 
 namespace rollwave {
 
 namespace {
+
+/// @p text as a field of a line of CSV (RFC 4180): in quotation marks where it needs them, with
+/// blanks for ends of lines.
+std::string csv_field(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  if (text.find_first_of(",\"") == std::string::npos)
+    return text;
+  return '"' + boost::algorithm::replace_all_copy(text, "\"", "\"\"") + '"';
+}
 
 std::string header(const Study& study) {
   const RunPlan& plan = study.plans.front();

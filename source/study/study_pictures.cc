@@ -12,7 +12,6 @@
 #include <set>
 #include <stdexcept>
 #include <tuple>
-#include <utility>
 
 namespace rollwave {
 
@@ -118,6 +117,17 @@ const ResultQuantity& main_result(const Study& study) {
   return result_quantity(has_load ? "scene.deflection" : "contact.vertical_load");
 }
 
+/// True if a curve goes back and forth: keys that vary together may repeat the first one's numbers.
+bool is_zigzag(const Panel& panel) {
+  for (const Curve& curve : panel.curves) {
+    std::set<double> x;
+    for (const CurvePoint& point : curve.points)
+      if (!x.insert(point.x).second)
+        return true;
+  }
+  return false;
+}
+
 /// A panel for each quantity that is drawn over the key that varies fastest. If this key is the
 /// distance or the load, the first panel is the vertical load over the deflection; otherwise it is
 /// the main_result() over this key.
@@ -127,7 +137,9 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<std::optio
   std::vector<Panel> panels;
   const auto add = [&](const std::string& x_label, const std::vector<std::optional<double>>& over,
                        const ResultQuantity& quantity) {
-    panels.push_back({x_label, label_of(study, quantity), curves_of(study, over, quantity.name)});
+    const Panel panel = {x_label, label_of(study, quantity), curves_of(study, over, quantity.name)};
+    if (!is_zigzag(panel))
+      panels.push_back(panel);
   };
   for (const ResultQuantity& quantity : result_quantities())
     if (!(quantity.shown & Shown::curve))
@@ -139,17 +151,6 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<std::optio
     else
       add(x_label_of(study), x, main_result(study));
   return panels;
-}
-
-/// True if a curve goes back and forth: keys that vary together may repeat the first one's numbers.
-bool is_zigzag(const Panel& panel) {
-  for (const Curve& curve : panel.curves) {
-    std::set<double> x;
-    for (const CurvePoint& point : curve.points)
-      if (!x.insert(point.x).second)
-        return true;
-  }
-  return false;
 }
 
 /// True if no run has a value: gnuplot refuses such a panel.
@@ -202,8 +203,11 @@ std::optional<Picture> map_of_result(const Study& study, const std::string& titl
     return {};
   const auto x = numbers_of(study, 0), y = numbers_of(study, study.first_key_of_part[1]);
   const auto& varied = study.plans.front().varied;
-  if (!study.is_of_scenes() || std::set(x.begin(), x.end()).size() <= most_curves ||
-      std::set(y.begin(), y.end()).size() <= most_curves)
+  const std::size_t n_x = std::set(x.begin(), x.end()).size(),
+                    n_y = std::set(y.begin(), y.end()).size();
+  // Keys that vary together may repeat the first one's numbers.
+  if (!study.is_of_scenes() || n_x <= most_curves || n_y <= most_curves ||
+      n_x * n_y != study.plans.size())
     return {};
   const ResultQuantity& result = main_result(study);
   std::vector<std::vector<MapPoint>> lines;

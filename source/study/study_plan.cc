@@ -13,7 +13,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -65,15 +64,10 @@ Parameters shared_parameters(Parameters parameters) {
 
 /// See RunPlan::digest. @param run its parameters
 std::string digest_of(const Parameters& run, bool has_true_errors) {
-  std::map<std::string, std::string> values;
-  for (const Setting& setting : run.settings)
-    values[setting.path()] = setting.value; // the last one holds
   std::string text = has_true_errors ? "with true errors\n" : "\n";
   for (const Key& key : all_keys())
-    if (key.section != "Study" && key.section != "Output") {
-      const auto value = values.find(key.path());
-      text += (value != values.end() ? value->second : key.default_value) + '\n';
-    }
+    if (key.section != "Study" && key.section != "Output")
+      text += value_of(key, run.settings) + '\n';
   boost::algorithm::erase_all(text, " "); // which expressions may have anywhere
   return digest_with_program(text);
 }

@@ -62,15 +62,17 @@ std::vector<unsigned int> missing_runs(const Study& study) {
 /// Makes a run with the files that are wanted and those that an earlier call has made, and writes
 /// its record. The record of an earlier call names no file while its files are replaced.
 RunRecord make_run(const Study& study, unsigned int run, StudySolver& solver,
-                   const fs::path& directory, MPI_Comm communicator) {
+                   const Parameters& parameters, MPI_Comm communicator) {
+  const fs::path directory = parameters.output.directory;
   const std::string& digest = study.plans[run].digest;
   const bool is_first = process_number(communicator) == 0;
   OwnFiles files = study.files;
   if (!files.kinds.empty())
     if (auto earlier = known_to_all(directory, digest, {}, communicator);
         earlier && !earlier->files.kinds.empty()) {
-      if (const OwnFiles& both = earlier->files; both.form() == files.form())
-        files.kinds.insert(both.kinds.begin(), both.kinds.end());
+      auto kinds = files.kinds;
+      kinds.merge(earlier->files.kinds);
+      files = own_files(parameters, kinds);
       earlier->files = {};
       if (is_first)
         write_record(directory, digest, *earlier);
@@ -94,7 +96,7 @@ bool make_runs(Study& study, const Parameters& parameters, std::ostream& out, MP
       const unsigned int run = missing[i];
       study.runs[run] = known_to_all(directory, study.plans[run].digest, study.files, communicator);
       if (!study.runs[run]) {
-        study.runs[run] = make_run(study, run, solver, directory, communicator);
+        study.runs[run] = make_run(study, run, solver, parameters, communicator);
         ++n_made;
       }
       out << line_of_run(study, run);
@@ -110,18 +112,13 @@ bool make_runs(Study& study, const Parameters& parameters, std::ostream& out, MP
   return true;
 }
 
-/// Results of Rollwave 0.3.0 and before are tables without records.
-bool has_old_results(const fs::path& directory) {
-  return fs::exists(directory / "study.csv") && !fs::exists(directory / "runs");
-}
-
 } // namespace
 
 Study plan_study(const Parameters& parameters, const std::optional<StudyPart>& part) {
   Study study;
   study.plans = plan_runs(parameters);
   study.runs.resize(study.plans.size());
-  study.files = wanted_files(parameters);
+  study.files = own_files(parameters, parameters.study.files_of_each_run);
   study.part = part;
   unsigned int n_keys = 0;
   for (const Variation& variation : parameters.study.vary) {
@@ -137,9 +134,6 @@ unsigned int run_study(Study& study, const Parameters& parameters, std::ostream&
   const fs::path directory = parameters.output.directory;
   const auto n_wanted = study.wanted_runs().size();
   if (process_number(communicator) == 0) {
-    if (has_old_results(directory))
-      out << "Note: runs are read from the directory runs alone; results of Rollwave 0.3.0 and "
-             "before are not taken over\n";
     WrittenFiles written;
     write_parameters(directory, parameters, written);
     for (const Note& note : written.notes)

@@ -123,16 +123,22 @@ std::pair<double, double> StudySolver::widest_zone(unsigned int number) const {
   return widest;
 }
 
-/// Solves a run with the mesh and the matrices of the run before, as far as it has the same.
+/// True if two runs and all those between them have the same system, and with it one
+/// widest_zone(): runs between them may be known, or belong to another part of the study.
+bool StudySolver::share_system(unsigned int earlier, unsigned int number) const {
+  for (unsigned int run = earlier; run < number; ++run)
+    if (!have_same_system(plans[run].parameters, plans[number].parameters))
+      return false;
+  return true;
+}
+
+/// Solves a run with the mesh and the matrices of the run made before, as far as it has the same.
 Solution StudySolver::solve_shared(unsigned int number, RunRecord& run) {
   const RunOptions& parameters = plans[number].parameters;
   const Scene scene = make_scene(parameters);
-  const auto is_shared_with_last = [&](const auto& have_same) {
-    return last && have_same(plans[*last].parameters, parameters);
-  };
-  const bool has_mesh = is_shared_with_last(have_same_mesh),
-             has_system = is_shared_with_last(have_same_system),
-             has_load = has_system && is_shared_with_last(have_same_force),
+  const bool has_mesh = last && have_same_mesh(plans[*last].parameters, parameters),
+             has_system = last && share_system(*last, number),
+             has_load = has_system && have_same_force(plans[*last].parameters, parameters),
              is_followed = number + 1 < plans.size() &&
                            have_same_mesh(parameters, plans[number + 1].parameters);
   std::optional<Mesh> mesh;
@@ -199,8 +205,9 @@ void StudySolver::write_files(const RunPlan& plan, RunRecord& run) {
       with_values(plan.parameters, {read({"Output", "Files", text_of(run.files.kinds), origin}),
                                     read({"Output", "Directory", own_directory.string(), origin})});
   const WrittenFiles written = write_results(own_directory, parameters, *solution);
-  for (const auto& file : written.files)
-    run.sizes[file.filename().string()] = std::filesystem::file_size(file);
+  if (process_number(communicator) == 0) // the others need not see the directory
+    for (const auto& file : written.files)
+      run.sizes[file.filename().string()] = std::filesystem::file_size(file);
   run.notes.insert(run.notes.end(), written.notes.begin(), written.notes.end());
 }
 

@@ -5,7 +5,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace rollwave {
@@ -33,11 +32,6 @@ struct RefinementOptions {
   Indicator indicator = Indicator::certificate;
   Marking marking = Marking::bulk;
   double marked_fraction = 0.75;
-
-  auto members() const {
-    return std::tie(adaptive_cycles, wanted_relative_error, indicator, marking, marked_fraction);
-  }
-  bool operator==(const RefinementOptions& other) const { return members() == other.members(); }
 };
 
 /// How often a run refines its mesh at most.

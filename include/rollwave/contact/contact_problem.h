@@ -9,7 +9,6 @@
 
 #include <functional>
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace rollwave {
@@ -39,9 +38,6 @@ struct ContactOptions {
   UzawaStop stop = UzawaStop::gap;
   double tolerance = 1e-8;
   unsigned int most_steps = 20000;
-
-  auto members() const { return std::tie(method, rho, stop, tolerance, most_steps); }
-  bool operator==(const ContactOptions& other) const { return members() == other.members(); }
 };
 
 /**

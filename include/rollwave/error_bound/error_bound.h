@@ -4,7 +4,6 @@
 #include "rollwave/error_bound/load_bounds.h"
 
 #include <optional>
-#include <tuple>
 #include <vector>
 
 namespace rollwave {
@@ -17,9 +16,6 @@ class RunStatistics;
 /// Section `Certificate`.
 struct CertificateOptions {
   bool error_bound = true;
-
-  auto members() const { return std::tie(error_bound); }
-  bool operator==(const CertificateOptions& other) const { return members() == other.members(); }
 };
 
 /// The numbers that a Certificate guarantees; a bound that does not exist is infinite.

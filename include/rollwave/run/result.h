@@ -7,6 +7,7 @@
 #include "rollwave/error_bound/error_bound.h"
 #include "rollwave/scene/units.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -49,7 +50,9 @@ struct Residuals {
   double allowed;           ///< wanted_residual or, where that is more, what rounding u leaves
 
   /// The largest of the four.
-  double largest() const;
+  double largest() const {
+    return std::max({equilibrium, penetration, negative_pressure, complementarity});
+  }
 };
 
 /// Errors against the exact solution.

@@ -38,9 +38,9 @@ void check_simulation(const Scene& scene, const RunOptions& options);
 /**
  * Solves @p scene on the mesh and by the methods of @p options; with adaptive cycles: solve,
  * certify, mark, refine, beginning each contact iteration with the pressure of the mesh before.
- * Result::shortfalls says which targets were not reached. Towards a wanted error the run ends after
- * 40 meshes without a finite bound, or 8 without a smaller one, and the mesh with the smallest
- * bound counts.
+ * The shortfalls among Result::notes say which targets were not reached. Towards a wanted error the
+ * run ends after 40 meshes without a finite bound, or 8 without a smaller one, and the mesh with
+ * the smallest bound counts.
  *
  * When the user interrupts it, the current mesh is the last one: its solution, certified where that
  * was asked for, is returned, and Result::is_interrupted is set if anything is missing.

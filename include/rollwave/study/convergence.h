@@ -26,7 +26,7 @@ std::vector<Family> find_families(const Study& study);
 void report_orders(std::ostream& out, const Study& study);
 
 /// The error over the quantity @p x for each family of runs that differ in the fineness of their
-/// meshes: the true error or, if that is not known, its bound.
+/// meshes: the true error or, where that is not known for a family, its bound.
 /// @param order_factor slopes over expected orders; 0 for none
 Panel error_panel(const Study& study, const std::string& x, const std::string& x_label,
                   double order_factor);

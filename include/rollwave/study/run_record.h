@@ -18,20 +18,15 @@ namespace rollwave {
 
 /// The files that a run of a study has of its own, and what they depend on besides the run.
 struct OwnFiles {
-  std::set<OutputFile> kinds; ///< none: no files
-  CellKind cells = CellKind::high_order;
-  PictureFormat picture_format = PictureFormat::svg;
-  UnitNames unit_names;
-
-  /// What changes the content of a file.
-  auto form() const { return std::tie(cells, picture_format, unit_names); }
+  std::set<OutputFile> kinds;              ///< none: no files
+  std::map<std::string, std::string> form; ///< the values of the keys that change their content
 
   /// True if @p wanted are among these.
   bool include(const OwnFiles& wanted) const;
 };
 
-/// `Study/Files of each run` of a study.
-OwnFiles wanted_files(const Parameters& study);
+/// Files of these kinds with the parameters of a study.
+OwnFiles own_files(const Parameters& study, const std::set<OutputFile>& kinds);
 
 /// A point of the contact, in the user's units.
 struct ProfilePoint {

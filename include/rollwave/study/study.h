@@ -34,7 +34,7 @@ struct Study {
   /// For the names of units: values are in the user's units already.
   Units units() const { return {1, plans.front().parameters.material}; }
 
-  /// True if any run has a value that is greater than 0.
+  /// True if the value of any run is known.
   bool has(const std::string& name) const;
 
   /// True if the runs differ in keys of the scene only, not in those of mesh or method.

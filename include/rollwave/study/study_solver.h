@@ -33,6 +33,7 @@ private:
   Solution solve_timed(const RunOptions& options);
   Solution solve_shared(unsigned int number, RunRecord& run);
   std::pair<double, double> widest_zone(unsigned int number) const;
+  bool share_system(unsigned int earlier, unsigned int number) const;
 
   const std::vector<RunPlan>& plans;
   const Parameters& study;
