@@ -43,6 +43,26 @@ TEST(BesselModes, AreThoseOfBesselFunctions) {
   }
 }
 
+// R_1 is J_1(omega r) but for a share of (a/r)^2: a hub far inside hides no surface.
+TEST(BesselModes, AreResolvedAboveSmallestHubs) {
+  for (const double a : {1e-8, 1e-20, 1e-50, 1e-100, 1e-150})
+    for (const double omega : {0., 0.5, 1.}) {
+      const BesselMode mode(a, 1, omega, 1);
+      const auto j = [&](double r) { return omega == 0 ? r : std::cyl_bessel_j(1, omega * r); };
+      const auto slope = [&](double r) { // J_1'
+        return omega == 0 ? 1
+                          : omega * (std::cyl_bessel_j(0, omega * r) -
+                                     std::cyl_bessel_j(1, omega * r) / (omega * r));
+      };
+      for (const double r : {1e-7, 1e-4, 5e-5, 1e-2, 0.3, 0.9, 1.}) {
+        const double hub = std::pow(a / r, 2), accuracy = 1e-8 * hub + (r < 1e-4 ? 1e-8 : 1e-12);
+        EXPECT_NEAR(mode.at(r).value / (j(r) * (1 - hub)) * j(1), 1, accuracy) << a << ' ' << r;
+        EXPECT_NEAR(mode.at(r).slope * j(1) / slope(r), 1 + hub, accuracy + hub * r);
+      }
+      EXPECT_NEAR(mode.compliance(), j(1) / slope(1), 1e-13);
+    }
+}
+
 TEST(BesselModes, HaveTheirLimits) {
   // Without rotation sigma_k = (k / b) coth(k ln(b / a)).
   for (const double a : {0.01, 0.5, 0.99, 0.9999}) {

@@ -1,5 +1,6 @@
 // A prescribed load: the distance that gives it, against the exact answer.
 #include "rollwave/base/errors.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study.h"
 #include "rollwave/verify/reference_solution.h"

@@ -44,8 +44,7 @@ RunRecord some_record() {
                   {Note::Kind::remark, "ζ"},
                   {Note::Kind::remark, "\xff"}};
   record.profile = {{4.5, -0.2, 0}, {4.6, -0.1, 1. / 7}};
-  record.files = {{OutputFile::parameters, OutputFile::surface},
-                  {{"Unit names", "m, s, N"}}};
+  record.files = {{OutputFile::parameters, OutputFile::surface}, {{"Unit names", "m, s, N"}}};
   record.sizes = {{"surface.vtu", 3000000000}, {"road.vtu", 1}};
   return record;
 }

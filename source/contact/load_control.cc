@@ -1,8 +1,6 @@
 #include "rollwave/contact/load_control.h"
 
-#include "rollwave/base/errors.h"
 #include "rollwave/base/falling_zero.h"
-#include "rollwave/base/interrupt.h"
 #include "rollwave/contact/active_set.h"
 #include "rollwave/contact/contact_patch.h"
 #include "rollwave/scene/scene.h"
@@ -196,8 +194,6 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
   // Load or nip above the wanted one. Without contact the least gap counts as a negative one, so
   // that the search sees how far away contact is.
   const auto excess_at = [&](double distance) {
-    if (is_interrupted(boundary.space().communicator()))
-      throw Interrupted("interrupted in the search for the distance");
     const Scene moved = with_distance(scene, distance);
     problem = make_contact_problem(boundary, moved);
     contact = active_set(equations, problem, most_steps, road.pressure, statistics);
@@ -214,7 +210,7 @@ RoadPosition find_distance(const ContactEquations& equations, const ContactBound
   const double at_start = excess_at(road.distance);
   const ArgumentRange range = {scene.least_distance, scene.road.greatest_distance()};
   const auto first_step = [&] {
-    if (target.is_nip()) { // twice the one by which a chord of this length would change its depth
+    if (target.is_nip()) { // four times the one by which a chord would change its depth
       const double nip = road.history.back().nip;
       return std::abs(nip * nip - wanted * wanted) / 2 *
              (1 / scene.outer_radius + std::max(scene.road.curvature, 0.));

@@ -231,7 +231,8 @@ void ForceIntegral::values_on_line_at(unsigned int cell, double t,
                                       std::vector<double>& line) const {
   line.assign(n_radii(cell), 0.);
   for (unsigned int p = 0; p < angular.size(); ++p) {
-    const double share = lagrange[p].value(t), *const values_on_line = on_line(cell, p);
+    const double share = lagrange[p].value(t);
+    const double* const values_on_line = on_line(cell, p);
     for (unsigned int q = 0; q < line.size(); ++q)
       line[q] += share * values_on_line[q];
   }

@@ -24,6 +24,10 @@ constexpr int n_gauss = 48;
 /// The hub has no effect on the surface beyond this exponent: exp(-2 * 21) < 1e-18.
 constexpr double negligible_exponent = 21;
 
+/// So far below the surface, in y = ln r, theta is k to (omega r)^2 < 1e-8, and the equation that
+/// of omega = 0. A longer interval would hide the surface from the points.
+constexpr double longest_interval = 10;
+
 /// Panels of interpolation over k.
 constexpr double first_panel = 64;
 constexpr int n_panels = 16;
@@ -116,13 +120,14 @@ BesselMode::BesselMode(double inner_radius, double outer_radius, double angular_
     : a(inner_radius), b(outer_radius), omega(std::min(angular_velocity, 1 / outer_radius)), k(k),
       theta_at_surface(logarithmic_derivative(k, k * omega * b)), q(0) {
   const SpectralIntegration& rule = spectral_integration();
-  const double depth = log_of_ratio(b, a);
+  const double depth = interval(), below = log_of_ratio(b, a) - depth;
   AtPoints theta;
   for (const double point : rule.point)
     theta.push_back(logarithmic_derivative(k, k * omega * b * std::exp((point - 1) * depth / 2)));
   for (const AtPoints& weights : rule.to_the_right)
     exponent.push_back(sum_of_products(weights, theta) * depth / 2);
-  if (sum_of_products(rule.weight, theta) * depth / 2 >= negligible_exponent) { // from hub to b
+  const double at_begin = sum_of_products(rule.weight, theta) * depth / 2;
+  if (at_begin + k * below >= negligible_exponent) { // from hub to b
     q = std::numeric_limits<double>::infinity();
     return;
   }
@@ -130,6 +135,8 @@ BesselMode::BesselMode(double inner_radius, double outer_radius, double angular_
   for (const double at_point : exponent)
     integrand.push_back(depth / 2 * std::exp(2 * at_point));
   q = sum_of_products(rule.weight, integrand);
+  if (k * below > 0)
+    q += std::exp(2 * at_begin) * std::expm1(2 * k * below) / (2 * k); // g ~ r^k below
   for (const AtPoints& weights : rule.to_the_right)
     q_to_the_right.push_back(sum_of_products(weights, integrand));
 }
@@ -138,10 +145,19 @@ double BesselMode::compliance() const {
   return k == 0 ? b * log_of_ratio(b, a) : b / (theta_at_surface + 1 / q);
 }
 
+double BesselMode::interval() const {
+  return std::min(log_of_ratio(b, a), longest_interval);
+}
+
 BesselMode::ValueAndSlope BesselMode::at(double r) const {
-  const double depth = log_of_ratio(b, a);
+  const double depth = interval(), begin = b * std::exp(-depth), to_hub = log_of_ratio(r, a);
   if (k == 0)
-    return {log_of_ratio(r, a) / depth, 1 / (r * depth)};
+    return {to_hub / log_of_ratio(b, a), 1 / (r * log_of_ratio(b, a))};
+  if (depth == longest_interval && r < begin) { // R ~ (r/a)^k - (a/r)^k
+    const double R =
+        at(begin).value * std::pow(r / begin, k) / -std::expm1(-2 * k * log_of_ratio(begin, a));
+    return {R * -std::expm1(-2 * k * to_hub), R * k * (1 + std::exp(-2 * k * to_hub)) / r};
+  }
   const AtPoints weights =
       spectral_integration().interpolation(1 + 2 * std::log1p((r - b) / b) / depth);
   const double g = std::exp(-sum_of_products(weights, exponent));

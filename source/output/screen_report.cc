@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <optional>
 #include <ostream>
 #include <tuple>
 
@@ -157,18 +158,25 @@ std::string interval_text(const Interval& interval) {
 
 void report_quantities(std::ostream& out, const Result& result, const Units& units) {
   constexpr unsigned int width = 32; // of words and symbol
+  const auto values = values_of(result, units);
+  const auto number = [&](const std::string& name) {
+    const auto known = values.find(name);
+    return known != values.end() ? std::optional(known->second) : std::nullopt;
+  };
   for (const ResultQuantity& quantity : result_quantities()) {
-    const auto value = quantity.in_users_units(result, units);
+    const auto value = number(quantity.name);
     if (!(quantity.shown & Shown::screen) || !value)
       continue;
-    const double uncertainty = uncertainty_of(quantity.name, result, units).value_or(0);
+    const double uncertainty = number(quantity.name + "_uncertainty").value_or(0);
     const std::string text =
         uncertainty > 0 ? with_uncertainty(*value, uncertainty) : quantity.text(*value);
     const std::string symbol = quantity.symbol.empty() ? "   " : quantity.symbol + " =";
     out << "  " << std::left << std::setw(width - symbol.size()) << quantity.words << symbol << ' '
         << text << units.after(quantity.quantity);
-    if (const auto interval = guaranteed_interval(quantity.name, result, units))
-      out << "   guaranteed " << interval_text(*interval);
+    const auto lower = number(quantity.name + "_lower_bound"),
+               upper = number(quantity.name + "_upper_bound");
+    if (lower && upper)
+      out << "   guaranteed " << interval_text({*lower, *upper});
     out << '\n';
   }
 }

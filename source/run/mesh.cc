@@ -27,15 +27,6 @@ std::unique_ptr<const RingSpace> make_space(const Triangulation<2>& triangulatio
   return std::make_unique<RingSpace>(triangulation, scene, options.mesh.degree);
 }
 
-} // namespace
-
-double count_contact_nodes(const Scene& scene, const MeshOptions& mesh) {
-  const double share = (scene.zone_end - scene.zone_begin) / (2 * numbers::PI);
-  return share * std::ldexp(1. * mesh.degree * mesh.angular_cells, mesh.global_refinements);
-}
-
-namespace {
-
 /// Asks for what a whole run on the first mesh takes at least, before any of it is made.
 void require_memory_of_run(const Scene& scene, const MeshOptions& mesh, MPI_Comm communicator) {
   // Peaks of figure 4 with its certificate, from 1e5 unknowns on: 1150 to 1550 bytes an unknown of
@@ -48,6 +39,11 @@ void require_memory_of_run(const Scene& scene, const MeshOptions& mesh, MPI_Comm
 }
 
 } // namespace
+
+double count_contact_nodes(const Scene& scene, const MeshOptions& mesh) {
+  const double share = (scene.zone_end - scene.zone_begin) / (2 * numbers::PI);
+  return share * std::ldexp(1. * mesh.degree * mesh.angular_cells, mesh.global_refinements);
+}
 
 Mesh make_mesh(const Scene& scene, const RunOptions& options, MPI_Comm communicator,
                RunStatistics& statistics) {

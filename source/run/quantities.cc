@@ -89,15 +89,6 @@ Quantities work_quantities() {
   return all;
 }
 
-/// The number of a name; nullopt if no quantity has that name.
-std::optional<double> number_if_known(const std::string& name, const Result& result,
-                                      const Units& units) {
-  for (const ResultQuantity& quantity : result_quantities())
-    if (quantity.name == name)
-      return quantity.in_users_units(result, units);
-  return {};
-}
-
 } // namespace
 
 std::optional<double> ResultQuantity::in_users_units(const Result& result,
@@ -134,16 +125,12 @@ const ResultQuantity& result_quantity(std::string_view name) {
   return *found;
 }
 
-std::optional<double> uncertainty_of(const std::string& name, const Result& result,
-                                     const Units& units) {
-  return number_if_known(name + "_uncertainty", result, units);
-}
-
-std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
-                                            const Units& units) {
-  const auto lower = number_if_known(name + "_lower_bound", result, units),
-             upper = number_if_known(name + "_upper_bound", result, units);
-  return lower && upper ? std::optional(Interval{*lower, *upper}) : std::nullopt;
+std::map<std::string, double> values_of(const Result& result, const Units& units) {
+  std::map<std::string, double> values;
+  for (const ResultQuantity& quantity : result_quantities())
+    if (const auto value = quantity.in_users_units(result, units))
+      values[quantity.name] = *value;
+  return values;
 }
 
 } // namespace rollwave

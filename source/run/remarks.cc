@@ -45,9 +45,10 @@ bool passes_road(const Scene& scene, const SurfaceTrace& trace) {
 std::string remark_on_zone_ends(const Scene& scene, const Result& result) {
   const auto& ends = result.contact.ends;
   const double tangent = scene.road.tangent_angle();
-  const bool zone_ends_at_tangent = scene.zone_end - scene.zone_begin >= (2 - 1e-9) * tangent;
-  if (!ends || zone_ends_at_tangent ||
-      (ends->first != scene.zone_begin && ends->second != scene.zone_end))
+  const auto is_cut = [&](double end, double zone_end) {
+    return end == zone_end && std::abs(from_lowest_point(zone_end)) < (1 - 1e-9) * tangent;
+  };
+  if (!ends || !(is_cut(ends->first, scene.zone_begin) || is_cut(ends->second, scene.zone_end)))
     return {};
   return scene.has_given_zone
              ? "the zone cuts the contact short: the pressure is unbounded at its end, where "

@@ -161,13 +161,14 @@ LastSolution solve_and_refine(Run& run, Scene scene, unsigned int most_refinemen
     CycleFigures& cycle = run.cycles.back();
 
     const bool ends = is_last(run, certificate, most_refinements);
-    const bool is_stopped = !ends && is_interrupted(run.mesh.communicator());
+    const bool is_stopped = !ends && !run.is_repeated && is_interrupted(run.mesh.communicator());
     if (is_stopped)
       solution.result.notes.push_back(
           {Note::Kind::shortfall, "interrupted on mesh " + std::to_string(run.cycles.size())});
     bool goes_on = !ends && !is_stopped;
     if (goes_on) {
-      scene = solution.scene;
+      if (!scene.has_distance())
+        scene = with_distance(scene, solution.scene.road.distance);
       pressure = pressure_profile(solution);
       const auto indicators = cell_indicators(run, solution, certificate);
       cycle.indicated = l2_norm(indicators, run.mesh.communicator());
@@ -197,10 +198,9 @@ Solution solve_best(Solution last, const Scene& scene, const RunOptions& options
   { const Solution freed = std::move(last); }
   Mesh mesh = make_mesh(scene, options, communicator, statistics);
   Run run = {options, std::move(mesh), std::move(statistics)};
+  run.is_repeated = true;
   LastSolution on_best = solve_and_refine(run, scene, best, {});
   Solution solution = finish(std::move(run), std::move(on_best));
-  if (solution.result.is_interrupted) // on an earlier mesh
-    return solution;
   solution.result.notes.push_back(
       {Note::Kind::remark, "further meshes had larger bounds, up to " +
                                rounded(*cycles.back().certified, 3) + " on mesh " +

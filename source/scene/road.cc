@@ -71,6 +71,7 @@ double Road::tangent_angle() const {
 }
 
 double Road::arc_length(double x) const {
+  x = std::clamp(x, -tangent_angle(), tangent_angle());
   // Sine and cosine of the angle at the centre of the circle, the sine over kappa.
   const double c = distance, m = 1 + curvature * c, s = root(x);
   const double sine = c * (2 + curvature * c) * std::sin(x) / (m * std::cos(x) + s),

@@ -144,14 +144,14 @@ bool CondensedSystem::solve(const std::vector<bool>& is_given, const Vector<doub
   const bool is_own_known = last && last->is_given == is_given,
              is_known = holds_on_all(processes, is_own_known);
   if (!is_known) {
+    if (has_interface && !interface)
+      interface = std::make_unique<InterfaceSolver>(unknowns.rows, unknowns.own_rows, processes);
     do_on_all(processes, [&] {
       if (is_own_known)
         return;
       last.reset(); // frees its memory first
       last = factorise(is_given);
     });
-    if (has_interface && !interface)
-      interface = std::make_unique<InterfaceSolver>(unknowns.rows, unknowns.own_rows, processes);
     if (has_interface)
       interface->set_matrix(matrix_of_interface(),
                             {is_given.begin() + unknowns.n_inner, is_given.end()});
@@ -187,7 +187,7 @@ Vector<double> CondensedSystem::residual(const Vector<double>& load,
 }
 
 double dense_bytes(double n_kept, double n_interface) {
-  constexpr double n_matrices = 3;              // L, S, and a block of S
+  constexpr double n_matrices = 4;              // L, S, a block of S and its factor
   constexpr double n_matrices_of_trilinos = 30; // T_p, T, its copies and its factor, as measured
   return sizeof(double) *
          (n_matrices * n_kept * n_kept + n_matrices_of_trilinos * n_interface * n_interface);

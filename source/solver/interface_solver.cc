@@ -12,7 +12,6 @@
 #include <Epetra_MultiVector.h>
 #include <Teuchos_ParameterList.hpp>
 
-#include <algorithm>
 #include <string>
 
 namespace rollwave {

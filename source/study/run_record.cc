@@ -3,7 +3,6 @@
 #include "rollwave/base/atomic_file.h"
 #include "rollwave/base/version.h"
 #include "rollwave/parameters/key.h"
-#include "rollwave/run/quantities.h"
 
 #include <nlohmann/json.hpp>
 
@@ -115,14 +114,6 @@ std::optional<RunRecord> known_run(const fs::path& directory, const std::string&
 
 void write_record(const fs::path& directory, const std::string& digest, const RunRecord& record) {
   write_file(path_of_record(directory, digest), to_json(record, digest));
-}
-
-std::map<std::string, double> values_of(const Result& result, const Units& units) {
-  std::map<std::string, double> values;
-  for (const ResultQuantity& quantity : result_quantities())
-    if (const auto value = quantity.in_users_units(result, units))
-      values[quantity.name] = *value;
-  return values;
 }
 
 std::vector<ProfilePoint> profile_of(const Result& result, const Units& units) {

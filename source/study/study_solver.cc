@@ -5,6 +5,7 @@
 #include "rollwave/base/mpi_processes.h"
 #include "rollwave/output/result_files.h"
 #include "rollwave/run/attempt.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/scene/scene.h"
 #include "rollwave/verify/reference_solution.h"

@@ -38,6 +38,7 @@ void report_errors(std::ostream& out, const Result& result, const Units& units) 
 void report_verification(std::ostream& out, const Scene& scene, const Result& result,
                          const ExactSolution& exact, std::optional<double> exact_stiffness) {
   const Units& units = scene.units;
+  const auto values = values_of(result, units);
   TableHandler table;
   const std::string exact_title = scene.has_distance() ? "exact" : "exact at this distance";
   const auto add = [&](const std::string& name, const std::string& words,
@@ -51,8 +52,8 @@ void report_verification(std::ostream& out, const Scene& scene, const Result& re
     table.add_value("computed", rounded(ours * unit, 12));
     table.add_value(exact_title, rounded(theirs * unit, 12));
     table.add_value("difference", rounded((ours - theirs) * unit, 3));
-    const auto estimate = uncertainty_of(name, result, units);
-    table.add_value("estimated", estimate ? rounded(*estimate, 2) : "-");
+    const auto estimate = values.find(name + "_uncertainty");
+    table.add_value("estimated", estimate != values.end() ? rounded(estimate->second, 2) : "-");
     table.add_value("relative", theirs == 0 ? "-" : rounded(ours / theirs - 1, 3));
     table.add_value("accuracy of the reference", accuracy > 0 ? rounded(accuracy, 1) : "-");
   };

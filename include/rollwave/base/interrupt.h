@@ -12,7 +12,8 @@ namespace rollwave {
 void install_signal_handlers(bool reports = true);
 
 /// True if the flag is set on any process; all of them must call it. A refinement asks once for
-/// each mesh, a study once for each run, and both end with what they have.
+/// each mesh, a study once for each run, and both end with what they have. Uzawa's method asks in
+/// each step, the exact answer for each half-width, and both end without a result.
 bool is_interrupted(MPI_Comm communicator);
 
 } // namespace rollwave

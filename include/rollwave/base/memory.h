@@ -17,8 +17,7 @@ double available_memory(const std::filesystem::path& root = "/");
 /// any process instead of failing an allocation. All processes of @p communicator must call it.
 /// @param bytes that this process needs @param purpose of the memory, for the message
 /// @throws NotEnoughMemory on all processes
-void require_memory(double bytes, const std::string& purpose,
-                    MPI_Comm communicator = MPI_COMM_SELF);
+void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator);
 
 /// The largest amount of memory that this process has held so far, in MiB.
 double peak_memory_mib();

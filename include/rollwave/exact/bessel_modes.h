@@ -18,7 +18,8 @@ namespace rollwave {
  *     R_k(r) / R_k(b) = g q(y) / q(ln b),
  *     sigma_k = R_k'(b) / R_k(b) = (theta(b) + 1/q(ln b)) / b.
  *
- * Integrals over y are taken by spectral integration on Gauss-Legendre points.
+ * Integrals over y are taken by spectral integration on Gauss-Legendre points. Far inside, where
+ * omega r is small, R_k ~ (r/a)^k - (a/r)^k.
  */
 class BesselMode {
 public:
@@ -36,6 +37,9 @@ public:
   ValueAndSlope at(double r) const;
 
 private:
+  /// The length in y of the interval below the surface that has points.
+  double interval() const;
+
   double a, b, omega, k;
   std::vector<double> exponent; ///< int_y^(ln b) theta at the points
   double theta_at_surface;

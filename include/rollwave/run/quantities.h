@@ -1,9 +1,8 @@
 #pragma once
 
 #include "rollwave/run/result_quantity.h"
-#include "rollwave/scene/loads.h"
 
-#include <optional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -15,14 +14,7 @@ const Quantities& result_quantities();
 /// The quantity of a name. @throws std::out_of_range
 const ResultQuantity& result_quantity(std::string_view name);
 
-/// The estimate of the error of a quantity in the user's units, by the quantity that ends in
-/// _uncertainty; nullopt where there is none.
-std::optional<double> uncertainty_of(const std::string& name, const Result& result,
-                                     const Units& units);
-
-/// The guaranteed interval of a quantity in the user's units, by the quantities that end in
-/// _lower_bound and _upper_bound; nullopt where there are none.
-std::optional<Interval> guaranteed_interval(const std::string& name, const Result& result,
-                                            const Units& units);
+/// The known quantities of a result by their names, in the user's units.
+std::map<std::string, double> values_of(const Result& result, const Units& units);
 
 } // namespace rollwave

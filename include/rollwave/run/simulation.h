@@ -29,6 +29,7 @@ struct Run {
   Mesh mesh;
   RunStatistics statistics = {};
   std::vector<CycleFigures> cycles = {}; ///< one for each mesh that was solved
+  bool is_repeated = false; ///< it makes again what there was: an interrupt would lose that
 };
 
 /// Checks what needs no mesh. @throws BadValue for a mesh that is too large or has too many contact

@@ -10,8 +10,7 @@ double log_of_ratio(double outer_radius, double inner_radius);
  *
  *     u_1(r) = -(r^2 - a^2)/4 + (b^2/2) ln(r/a),
  *
- * in a form in which nothing cancels, however thin the ring is. u_1(b) is also the square of the
- * constant in Friedrichs' inequality ||w|| <= C |w|, ||w||^2 = int r w^2 dr dz, |w|^2 = a(w, w).
+ * in a form in which nothing cancels, however thin the ring is.
  */
 double contact_free_unit_displacement(double inner_radius, double outer_radius, double r);
 

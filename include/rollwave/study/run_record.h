@@ -72,9 +72,6 @@ std::optional<RunRecord> known_run(const std::filesystem::path& directory,
 void write_record(const std::filesystem::path& directory, const std::string& digest,
                   const RunRecord& record);
 
-/// The known quantities of a result by their names, in the user's units.
-std::map<std::string, double> values_of(const Result& result, const Units& units);
-
 /// The pressure from the node before contact to that after it, at about a hundred nodes at most,
 /// in the user's units.
 std::vector<ProfilePoint> profile_of(const Result& result, const Units& units);
