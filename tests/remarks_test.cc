@@ -43,6 +43,9 @@ TEST(Remarks, GiveThePenetrationOutsideOfTheZone) {
   const auto cut = remarks_with({"Road/Contact zone=4.5, 5"});
   EXPECT_TRUE(have(cut, "penetrates the road by"));
   EXPECT_TRUE(have(cut, "cuts the contact short"));
+  // At one end of a zone that reaches beyond the tangent of a drum at the other.
+  EXPECT_TRUE(have(remarks_with({"Road/Curvature=1", "Road/Contact zone=4.612, 6.1"}),
+                   "cuts the contact short"));
 }
 
 TEST(Remarks, WarnBeyondTheLinearModel) {
