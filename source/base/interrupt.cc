@@ -18,7 +18,7 @@ volatile std::sig_atomic_t does_report = 0;
 extern "C" void set_interrupt_flag(int) {
   is_flag_set = 1;
   constexpr std::string_view message = "\nrollwave: interrupted; the program ends after the "
-                                       "current mesh, or at once on the same signal\n";
+                                       "current mesh or run, or at once on the same signal\n";
   if (does_report) [[maybe_unused]]
     const auto written = write(STDERR_FILENO, message.data(), message.size());
 }

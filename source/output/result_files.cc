@@ -48,7 +48,8 @@ bool fits_single_precision(const Units& units) {
   return fits(Quantity::length) && fits(Quantity::pressure) && fits(Quantity::energy_norm);
 }
 
-/// The parameters with the calibrated shear modulus and density.
+/// The parameters with the calibrated shear modulus and density, and with the load alone: with the
+/// nip another run would calibrate anew.
 Parameters parameters_used(const Parameters& given, const Result& result) {
   if (!result.modulus_ratio)
     return given;
@@ -56,7 +57,8 @@ Parameters parameters_used(const Parameters& given, const Result& result) {
     return read({"Material", key, number_text(*result.modulus_ratio * value), "calibration"});
   };
   return with_values(given, {scaled("Shear modulus", given.material.shear_modulus),
-                             scaled("Density", given.material.density)});
+                             scaled("Density", given.material.density),
+                             read({"Road", "Nip", "none", "calibration"})});
 }
 
 } // namespace

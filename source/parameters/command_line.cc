@@ -26,7 +26,7 @@ Options:
   --part K/N                  make every N-th run of a study, beginning with the K-th; the same
                               command without it joins the parts
   --output DIR                output directory instead of Output/Directory
-  --set "Section/Key=value"   overrides the file; may be repeated
+  --set "Section/Key=value"   overrides the file; may be repeated, the last one holds
 
 Exit codes: 0 solved, 1 bad input, 2 not solved, 3 not written.
 )";

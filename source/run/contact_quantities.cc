@@ -39,7 +39,7 @@ void add_loads(Quantities& all) {
                  [](const Result& r) { return r.contact.length(); }},
                 [](const Result& r) { return r.contact.sum(&ContactPatch::length_uncertainty); });
   all.push_back({"contact.calibrated_shear_modulus", "calibrated shear modulus", "",
-                 Quantity::pressure, 0, all_digits, [](const Result& r) {
+                 Quantity::pressure, Shown::scene_table, 5, [](const Result& r) {
                    return r.modulus_ratio ? std::optional(1.) : std::nullopt;
                  }});
   add_certified(all,

@@ -55,7 +55,7 @@ Quantities true_error_quantities() {
        optional_member(&Result::errors, &TrueErrors::energy)},
       {"error.exact_half_width", "true error of the half-width", "", Quantity::angle, 0, 3,
        optional_member(&Result::errors, &TrueErrors::half_width)},
-      {"error.exact_distance", "true error of the distance for a given load", "error of c",
+      {"error.exact_distance", "true error of the distance for a given load or nip", "error of c",
        Quantity::length, Shown::tables | Shown::orders, 3,
        [](const Result& r) -> std::optional<double> {
          if (!r.errors || !r.errors->exact_distance)

@@ -65,8 +65,6 @@ Solution finish(Run run, LastSolution last) {
   result.relative_deflection = result.deflection / (scene.outer_radius - scene.inner_radius);
   if (last.certificate)
     result.certified = last.certificate->error;
-  if (scene.load && scene.nip)
-    result.modulus_ratio = scene.units.material.shear_modulus / run.options.material.shear_modulus;
   result.cycles = std::move(run.cycles);
   result.is_interrupted = last.is_interrupted;
   result.contact_rows = tabulate_contact(solution.boundary, solution.problem, state);

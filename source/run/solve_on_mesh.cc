@@ -152,10 +152,10 @@ MeshSolution solve_on_mesh(const MeshObjects& objects, const Scene& scene,
   MeshResult& result = solution.result;
   result.contact = measure_contact(solution.scene, solution.problem, solution.contact,
                                    solution.boundary.space().dof_handler().get_fe().degree);
-  if (const auto& given = solution.scene.load; given && scene.nip) {
-    const double load = result.contact.loads.of(given->kind);
-    if (load > 0)
-      solution.scene = calibrated(solution.scene, given->value / load);
+  const bool has_nip = !solution.road_refusal && shortfall_text(result.notes).empty();
+  if (const auto& given = scene.load; given && scene.nip && has_nip) {
+    result.modulus_ratio = given->value / result.contact.loads.of(given->kind);
+    solution.scene = calibrated(solution.scene, *result.modulus_ratio);
   }
   if (reaches_tangent(solution.boundary, solution.scene.road, solution.contact.active)) {
     result.contact.loads.work_conjugate.reset();

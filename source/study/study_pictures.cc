@@ -47,6 +47,11 @@ std::string title_of(const Study& study, const std::vector<Setting>& settings) {
     for (const auto& of_run : {plan.scene_settings, plan.varied})
       for (const Setting& setting : of_run)
         differing.insert(setting.path());
+  const auto is_calibrated = [](const RunPlan& plan) {
+    return plan.parameters.road.load && plan.parameters.road.nip;
+  };
+  if (std::any_of(study.plans.begin(), study.plans.end(), is_calibrated))
+    differing.insert({"Material/Shear modulus", "Material/Density"}); // which are results
   const std::set<std::string> places = {"Road/Distance", "Road/Load", "Road/Nip"};
   for (const std::string& key : places) // of which one or two are none
     if (differing.count(key) > 0) {

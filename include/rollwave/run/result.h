@@ -106,6 +106,10 @@ struct MeshResult {
   std::vector<DistanceStep> distance_history = {}; ///< where a load or nip is given
   std::vector<ContactStep> history = {};
   std::optional<StepLength> step_length = {}; ///< of Uzawa's method
+
+  /// The calibrated shear modulus, which is that of the scene, over the given one; where load and
+  /// nip are both given and met.
+  std::optional<double> modulus_ratio = {};
   std::vector<Note> notes = {};
 };
 
@@ -117,10 +121,6 @@ struct Result : MeshResult {
   double deflection = 0;    ///< b - c, a length: how deep the undeformed ring would lie in the road
   double relative_deflection = 0; ///< over the thickness b - a
   std::optional<CertifiedError> certified = {};
-
-  /// The calibrated shear modulus, which is that of the scene, over the given one; where load and
-  /// nip are both given.
-  std::optional<double> modulus_ratio = {};
   std::optional<TrueErrors> errors = {}; ///< where a comparison was asked for
   std::vector<CycleFigures> cycles = {}; ///< one for each mesh
   bool is_interrupted = false;           ///< by the user: a shortfall says after what
