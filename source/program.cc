@@ -92,12 +92,11 @@ void verify(const Call& call, Solution& solution) {
 
 void solve_scene(const Call& call, const Scene& scene) {
   report_scene(call.out, scene, call.parameters);
-  for (const Setting& setting : call.parameters.settings)
-    if (setting.section == "Study" && setting.value != key_of(setting).default_value)
-      call.out << "Note: " << setting.path() << " does nothing without Study/Vary or Study/Scenes"
-               << (call.parameters.study.true_errors
-                       ? "; --verify compares a single scene with its exact solution\n"
-                       : "\n");
+  const StudyOptions& study = call.parameters.study;
+  if (study.true_errors || !study.files_of_each_run.empty() || !study.published_steps.empty())
+    call.out
+        << "Note: section Study does nothing without Vary or Scenes; --verify compares a single "
+           "scene with its exact solution\n";
   Solution solution =
       simulate(scene, call.parameters, call.communicator, report_progress(call.out, scene));
   report_result(call.out, solution.result, solution.scene.units);

@@ -43,7 +43,7 @@ TEST(BesselModes, AreThoseOfBesselFunctions) {
   }
 }
 
-// R_1 is J_1(omega r) but for a share of (a/r)^2: a hub far inside hides no surface.
+// A hub that is small changes R_1 from J_1(omega r) by a share of (a/r)^2 only.
 TEST(BesselModes, AreResolvedAboveSmallestHubs) {
   for (const double a : {1e-8, 1e-20, 1e-50, 1e-100, 1e-150})
     for (const double omega : {0., 0.5, 1.}) {

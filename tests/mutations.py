@@ -112,10 +112,10 @@ root = pathlib.Path(__file__).resolve().parent.parent
 os.environ['OPENBLAS_NUM_THREADS'] = '1'
 
 
-def first_failure():
+def first_failure(module):
     """The name of a test that fails, or how the tests ended; empty if all pass."""
     commands = [['timeout', '600', build / 'tests/rollwave_tests', '--gtest_brief=1', '--gtest_fail_fast',
-                 f'--gtest_filter={tests}'] for tests in (TESTS_OF[name.split('/')[0]], ALL_TESTS)]
+                 f'--gtest_filter={tests}'] for tests in (TESTS_OF[module], ALL_TESTS)]
     commands.append(['ctest', '--test-dir', build, '-R', 'substructures', '-V', '--timeout', '30'])
     for command in commands:
         run = subprocess.run(command, capture_output=True, text=True)
@@ -138,7 +138,7 @@ for name, right, wrong in MUTATIONS:
     path.write_text(original.replace(right, wrong, 1))
     try:
         built = subprocess.run(['cmake', '--build', build, '--target', 'rollwave_tests'], capture_output=True)
-        failure = first_failure() if built.returncode == 0 else ''
+        failure = first_failure(name.split('/')[0]) if built.returncode == 0 else ''
     finally:
         path.write_text(original)
     survivors += failure == ''

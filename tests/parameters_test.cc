@@ -166,7 +166,7 @@ TEST(Parameters, NumbersHaveOneSpelling) {
 }
 
 // Together they calibrate the modulus.
-TEST(Parameters, AcceptALoadOfAScenesWithNipsThatVary) {
+TEST(Parameters, AcceptALoadOfASceneWithNipsThatVary) {
   const Parameters parameters =
       parameters_of({"Study/Scenes=a: Road/Load = 0.3", "Study/Vary=Road/Nip = 0.8 | 0.9"});
   EXPECT_EQ(plan_runs(parameters).size(), 2u);

@@ -267,11 +267,11 @@ TEST_F(RepeatedStudy, IsThatOfItsParts) {
   }
 }
 
-// Run 2, which has the widest zone, belongs to the other part; run 3 has another system.
+// Runs 1 and 3 of a part have one mesh and speed, but run 3 has a wider zone of contact. Between
+// them lies a run of the other part: of another speed, or of the same one.
 TEST_F(RepeatedStudy, PartsWithGrowingZonesAreSolved) {
   const std::vector<std::string> study = {
-      "Study/Vary=Road/Distance = 0.9 | 0.8; Cylinder/Angular velocity = 0.25 | 0.5",
-      "Road/Contact zone=auto"};
+      "Study/Vary=Road/Distance = 0.9 | 0.8; Cylinder/Angular velocity = 0.25 | 0.5"};
   const std::vector<std::string> of_one_speed = {"Study/Vary=Road/Distance = 0.9 | 0.95 | 0.7"};
   for (const auto& settings : {study, of_one_speed})
     for (const StudyPart part : {StudyPart{1, 2}, StudyPart{2, 2}})
@@ -279,7 +279,7 @@ TEST_F(RepeatedStudy, PartsWithGrowingZonesAreSolved) {
   for (const auto& settings : {study, of_one_speed}) {
     const Study made = known(settings);
     for (unsigned int i = 0; i < made.plans.size(); ++i)
-      EXPECT_TRUE(made.value(i, "contact.force").value_or(0) > 0) << i;
+      EXPECT_GT(made.value(i, "contact.force").value_or(0), 0) << i;
   }
 }
 

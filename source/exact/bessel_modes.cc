@@ -24,8 +24,9 @@ constexpr int n_gauss = 48;
 /// The hub has no effect on the surface beyond this exponent: exp(-2 * 21) < 1e-18.
 constexpr double negligible_exponent = 21;
 
-/// So far below the surface, in y = ln r, theta is k to (omega r)^2 < 1e-8, and the equation that
-/// of omega = 0. A longer interval would hide the surface from the points.
+/// The points lie in an interval of this length at most below the surface, in y = ln r. On a longer
+/// one they would be too far apart near the surface, where theta changes. Below the interval omega
+/// r is under 5e-5, and the modes are those of omega = 0.
 constexpr double longest_interval = 10;
 
 /// Panels of interpolation over k.

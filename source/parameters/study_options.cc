@@ -142,20 +142,15 @@ std::vector<std::optional<unsigned int>> parse_counts(const std::string& text) {
 } // namespace
 
 void check_scenes(const StudyOptions& study) {
-  // A distance takes the place of load and nip, and the other way round.
-  const auto keys_replaced_by = [](const Setting& setting) {
-    const std::string path = setting.path();
-    if (path == "Road/Distance")
-      return std::vector<std::string>{path, "Road/Load", "Road/Nip"};
-    return path == "Road/Load" || path == "Road/Nip"
-               ? std::vector<std::string>{path, "Road/Distance"}
-               : std::vector<std::string>{path};
-  };
   std::set<std::string> varied;
   for (const Variation& variation : study.vary)
     for (const Setting& setting : variation.front())
-      for (const std::string& key : keys_replaced_by(setting))
-        varied.insert(key);
+      varied.insert(setting.path());
+  // A distance takes the place of load and nip, and the other way round.
+  if (varied.count("Road/Distance") > 0)
+    varied.insert({"Road/Load", "Road/Nip"});
+  else if (varied.count("Road/Load") > 0 || varied.count("Road/Nip") > 0)
+    varied.insert("Road/Distance");
   for (const NamedScene& scene : study.scenes) {
     std::set<std::string> paths;
     for (const Setting& setting : scene.settings)

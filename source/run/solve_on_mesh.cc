@@ -152,8 +152,9 @@ MeshSolution solve_on_mesh(const MeshObjects& objects, const Scene& scene,
   MeshResult& result = solution.result;
   result.contact = measure_contact(solution.scene, solution.problem, solution.contact,
                                    solution.boundary.space().dof_handler().get_fe().degree);
-  const bool has_nip = !solution.road_refusal && shortfall_text(result.notes).empty();
-  if (const auto& given = scene.load; given && scene.nip && has_nip) {
+  const bool has_nip = scene.nip && !solution.road_refusal && shortfall_text(result.notes).empty();
+  if (const auto& given = scene.load;
+      has_nip && given && result.contact.loads.of(given->kind) > 0) {
     result.modulus_ratio = given->value / result.contact.loads.of(given->kind);
     solution.scene = calibrated(solution.scene, *result.modulus_ratio);
   }

@@ -29,7 +29,8 @@ struct Run {
   Mesh mesh;
   RunStatistics statistics = {};
   std::vector<CycleFigures> cycles = {}; ///< one for each mesh that was solved
-  bool is_repeated = false; ///< it makes again what there was: an interrupt would lose that
+  bool is_repeated = false; ///< makes the best mesh once more, whose solution was not kept; is not
+                            ///< interrupted, since nothing would be left
 };
 
 /// Checks what needs no mesh. @throws BadValue for a mesh that is too large or has too many contact
