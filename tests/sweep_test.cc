@@ -1,6 +1,7 @@
 // Scenes on the mesh of the one before: the same answers, and no work twice.
 #include "draw.h"
 #include "own_path.h"
+#include "rollwave/run/quantities.h"
 #include "rollwave/run/simulation.h"
 #include "rollwave/study/study_runner.h"
 #include "test_scenes.h"
