@@ -27,9 +27,9 @@ public:
       : space(space), scene(scene), fields(fields), shapes(shapes),
         n(space.dof_handler().get_fe().degree + 1), lagrange(lobatto_lagrange(n - 1)),
         rule(fields.force ? fields.force->rule() : QGauss<1>(n)),
-        along_road(fields.trace.n_points()), load_functions(rollwave::load_functions(scene)),
-        dofs(space.dof_handler()), u(n * n), moved(n * n), psi(n * n), line_u(n), line_u_z(n),
-        line_moved(n), line_moved_z(n), line_psi(n), line_psi_z(n) {
+        along_road(fields.trace.n_points()), dofs(space.dof_handler()), u(n * n), moved(n * n),
+        psi(n * n), line_u(n), line_u_z(n), line_moved(n), line_moved_z(n), line_psi(n),
+        line_psi_z(n) {
     for (const auto& point : rule.get_points())
       lines.emplace_back(lagrange, point[0]);
   }
@@ -79,8 +79,8 @@ private:
         here.gap_work = 2 * pressure * correction.gap;
         here.bound_squared += here.gap_work;
         const double v = fields.trace.displacement(edge, piece, t);
-        for (unsigned int k = 0; k < load_functions.size(); ++k) {
-          const double w = load_functions[k].on_surface(low[1] + t * length);
+        for (unsigned int k = 0; k < fields.load_functions.size(); ++k) {
+          const double w = fields.load_functions[k].on_surface(low[1] + t * length);
           here.loads[k].trace = v * w;
           here.loads[k].pressure = pressure * w;
         }
@@ -101,7 +101,7 @@ private:
     const unsigned int n_loads = !q_h ? 0 : fields.force->is_uniform() ? 1 : 2;
     std::array<double, 2> w = {};
     for (unsigned int k = 0; k < n_loads; ++k)
-      w[k] = load_functions[k].on_surface(low[1] + t * length);
+      w[k] = fields.load_functions[k].on_surface(low[1] + t * length);
     Integrals sums;
     for (unsigned int q = 0; q < radial->r.size(); ++q) {
       const double r = radial->r[q], alpha = radial->alpha[q], weight = radial->weight[q];
@@ -158,9 +158,9 @@ private:
   /// R' of both loads at the radii of a cell.
   const std::array<std::vector<double>, 2>& slopes_on(const RadialShapes& radial) {
     const auto [place, is_new] = known_slopes.try_emplace(&radial);
-    for (unsigned int k = 0; is_new && k < load_functions.size(); ++k)
+    for (unsigned int k = 0; is_new && k < fields.load_functions.size(); ++k)
       for (const double r : radial.r)
-        place->second[k].push_back(load_functions[k].radial_slope(r));
+        place->second[k].push_back(fields.load_functions[k].radial_slope(r));
     return place->second;
   }
 
@@ -172,7 +172,6 @@ private:
   const std::vector<Polynomials::Polynomial<double>> lagrange;
   const QGauss<1> rule, along_road;
   std::vector<ShapesAtPoint> lines; ///< of the rule
-  const LoadFunctions load_functions;
   std::map<const RadialShapes*, std::array<std::vector<double>, 2>> known_slopes;
   LexicographicDofs dofs;
   std::vector<double> u, moved, psi; ///< values of v - c xi, the same minus u_h, and psi

@@ -21,12 +21,11 @@ namespace {
 
 /// The intervals of both loads.
 /// @param delta of the force, finite
-LoadBounds bound_loads(const Scene& scene, const CertificateIntegrals& integrals, double delta,
-                       double round_off) {
+LoadBounds bound_loads(const Scene& scene, const LoadFunctions& w,
+                       const CertificateIntegrals& integrals, double delta, double round_off) {
   const double squared = integrals.bound_squared + integrals.gap_work;
   const double radius = std::sqrt(std::max(squared, 0.)) / 2 + 2 * delta;
   const double size = std::sqrt(integrals.norm_squared);
-  const LoadFunctions w = load_functions(scene);
   LoadBounds loads = {bound_load(w[0], integrals.loads[0], radius, size, round_off),
                       bound_load(w[1], integrals.loads[1], radius, size, round_off)};
   loads.total.lower = std::max(loads.total.lower, 0.);
@@ -37,8 +36,8 @@ LoadBounds bound_loads(const Scene& scene, const CertificateIntegrals& integrals
 }
 
 /// The bounds that eta, delta and the integrals of v give.
-CertifiedError bound_error(const Scene& scene, const CertificateIntegrals& integrals,
-                           const ForceIntegral* force) {
+CertifiedError bound_error(const Scene& scene, const LoadFunctions& w,
+                           const CertificateIntegrals& integrals, const ForceIntegral* force) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   CertifiedError error = {};
   error.eta = std::sqrt(std::max(double(integrals.bound_squared), 0.));
@@ -72,7 +71,7 @@ CertifiedError bound_error(const Scene& scene, const CertificateIntegrals& integ
       delta * norm + round_off * (error.norm_squared + std::abs(work_of_force));
   error.lower_bound = energy - energy_error - error.eta * error.eta / 2 - delta * error_of_v;
   error.upper_bound = energy + energy_error;
-  error.loads = bound_loads(scene, integrals, delta, 10 * round_off);
+  error.loads = bound_loads(scene, w, integrals, delta, 10 * round_off);
   return error;
 }
 
@@ -105,11 +104,12 @@ Certificate certify(const SolvedContact& solved, const FieldVector& field,
   const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
   const FieldVector potential = dual.stress_function(scene, pressures, force, statistics);
+  const LoadFunctions w = load_functions(scene);
   std::vector<double> cell_bounds;
   const CertificateIntegrals integrals = integrate_certificate(
-      boundary.space(), scene, {field, displacement, trace, pressures, potential, force},
+      boundary.space(), scene, {field, displacement, trace, pressures, potential, force, w},
       dual.shapes(), cell_bounds);
-  return {bound_error(scene, integrals, force), std::move(cell_bounds), trace,
+  return {bound_error(scene, w, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};
 }
 

@@ -8,8 +8,6 @@
 
 namespace rollwave {
 
-using namespace dealii;
-
 ContactBoundary::ContactBoundary(const RingSpace& space, const std::pair<double, double>& zone)
     : ring(&space) {
   const auto& surface = space.surface_nodes();
@@ -22,12 +20,6 @@ ContactBoundary::ContactBoundary(const RingSpace& space, const std::pair<double,
                    "; raise Mesh/Angular cells or widen Road/Contact zone");
   first = begin - surface.begin();
   nodes.assign(begin, end);
-}
-
-Vector<double> ContactBoundary::contact_values(const FieldVector& field) const {
-  const std::vector<double> values = ring->surface_values(field);
-  const auto begin = values.begin() + first;
-  return Vector<double>(begin, begin + size());
 }
 
 } // namespace rollwave

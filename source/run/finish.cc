@@ -5,6 +5,7 @@
 #include "rollwave/run/remarks.h"
 
 #include <deal.II/grid/tria.h>
+#include <deal.II/lac/vector.h>
 
 #include <utility>
 

@@ -7,6 +7,8 @@
 #include "rollwave/scene/scene.h"
 #include "rollwave/solver/contact_equations.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <functional>
 #include <optional>
 #include <vector>

@@ -21,6 +21,7 @@ struct AdmissibleFields {
   const std::vector<EdgePressure>& pressures; ///< lambda
   const FieldVector& potential;               ///< psi
   const ForceIntegral* force;                 ///< nullptr without force
+  const LoadFunctions& load_functions;
 };
 
 /// Integrals over dr, or sums of them. They have a higher precision, so that sums over very many

@@ -2,8 +2,6 @@
 
 #include "rollwave/mesh/ring_space.h"
 
-#include <deal.II/lac/vector.h>
-
 #include <optional>
 #include <utility>
 #include <vector>
@@ -32,9 +30,6 @@ public:
       return {};
     return surface_node - first;
   }
-
-  /// The values of a field at the contact nodes, on every process.
-  dealii::Vector<double> contact_values(const FieldVector& field) const;
 
 private:
   const RingSpace* ring;
