@@ -74,9 +74,14 @@ TEST_P(Space, HasTheEndsOfAGivenZoneAmongItsNodes) {
 TEST_P(Space, NumbersTheContactNodesAmongTheSurfaceNodes) {
   const Scene scene = make_scene(parameters);
   const MeshAndSpace ring(scene, parameters);
+  FieldVector field = ring.space.make_field();
+  for (const SurfaceNode& node : ring.space.surface_nodes())
+    field(node.dof) = node.angle;
+  const auto values = ring.space.surface_values(field);
   unsigned int n_contact = 0;
   for (unsigned int i = 0; i < ring.space.surface_nodes().size(); ++i) {
     const double angle = ring.space.surface_nodes()[i].angle;
+    EXPECT_EQ(values[i], angle);
     const auto number = ring.boundary.contact_number(i);
     ASSERT_EQ(number.has_value(), scene.is_in_zone(angle));
     if (!number)
