@@ -47,7 +47,7 @@ public:
     for (unsigned int i = 0; i < of_cell.size(); ++i) {
       u[i] = fields.displacement(of_cell[i]);
       moved[i] = u[i] - fields.discrete(of_cell[i]);
-      psi[i] = fields.potential(of_cell[i]);
+      psi[i] = fields.stress_function(of_cell[i]);
     }
     const auto edge = space.surface_edge(cell);
     is_moved = edge || std::any_of(moved.begin(), moved.end(), [](double x) { return x != 0; });
@@ -112,8 +112,8 @@ private:
         const RadialShape& shape = radial->shapes[n * q + i];
         v_r += shape.derivative * line_u[i];
         v_z += shape.value * line_u_z[i];
-        psi_s += shape.potential_s * line_psi[i];
-        psi_z += shape.potential * line_psi_z[i];
+        psi_s += shape.psi_s * line_psi[i];
+        psi_z += shape.psi * line_psi_z[i];
       }
       const double q_h_here = q_h ? q_h[q] : 0;
       const double z_part = psi_s + v_z;                // tau_z = -alpha psi_s

@@ -167,8 +167,9 @@ AffineConstraints<double> make_constraints(const RingSpace& space, const Scene& 
 
 } // namespace
 
-DualSystem::DualSystem(const RingSpace& space, const Scene& scene, RunStatistics& statistics)
-    : space(space), radial(space, scene) {
+DualSystem::DualSystem(const RingSpace& space, const RadialShapesOfMesh& shapes, const Scene& scene,
+                       RunStatistics& statistics)
+    : space(space), radial(shapes) {
   const std::vector<EdgePressure> no_pressures(space.surface_edges().size());
   const auto constraints = make_constraints(space, scene, no_pressures);
   SystemMatrix matrix(space, constraints);
@@ -198,15 +199,15 @@ FieldVector DualSystem::stress_function(const Scene& scene,
     if (std::any_of(dofs.begin(), dofs.end(), is_given))
       constraints.distribute_local_to_global(no_load, dofs, load, cell_matrix.on(cell));
   }
-  if (force && !force->is_uniform()) // a function of r does no work on periodic potentials
-    force->add_load(space, radial, ForceIntegral::TestSpace::potentials, constraints, load);
+  if (force && !force->is_uniform()) // a function of r does no work on periodic stress functions
+    force->add_load(space, radial, ForceIntegral::TestSpace::stress_functions, constraints, load);
   load.compress(VectorOperation::add);
   Vector<double> kept(condensed->kept().size());
   condensed->solve(std::vector<bool>(kept.size(), false), factor->condense(load, statistics), kept);
-  FieldVector potential = factor->expand(&load, kept, statistics);
-  constraints.distribute(potential);
-  potential.update_ghost_values();
-  return potential;
+  FieldVector psi = factor->expand(&load, kept, statistics);
+  constraints.distribute(psi);
+  psi.update_ghost_values();
+  return psi;
 }
 
 } // namespace rollwave

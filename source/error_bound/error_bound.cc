@@ -103,11 +103,11 @@ Certificate certify(const SolvedContact& solved, const FieldVector& field,
   const FieldVector displacement = project_contact_nodes(boundary, road, contact.active, field);
   const AdmissibleTrace trace(boundary, scene, road, displacement, contact.active);
   const auto pressures = admissible_pressures(boundary, scene, contact);
-  const FieldVector potential = dual.stress_function(scene, pressures, force, statistics);
+  const FieldVector psi = dual.stress_function(scene, pressures, force, statistics);
   const LoadFunctions w = load_functions(scene);
   std::vector<double> cell_bounds;
   const CertificateIntegrals integrals = integrate_certificate(
-      boundary.space(), scene, {field, displacement, trace, pressures, potential, force, w},
+      boundary.space(), scene, {field, displacement, trace, pressures, psi, force, w},
       dual.shapes(), cell_bounds);
   return {bound_error(scene, w, integrals, force), std::move(cell_bounds), trace,
           double(integrals.work_of_force)};

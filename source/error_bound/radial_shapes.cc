@@ -89,7 +89,7 @@ RadialShapes make_shapes(const Scene& scene,
   const QGauss<1> points(points_for_pole(begin, end, lagrange.size() - 1));
   const RadialRule rule = graded_rule(begin, end, points);
   RadialShapes shapes;
-  const StressFunctionBasis potential_shapes(scene, lagrange.size() - 1, begin, end);
+  const StressFunctionBasis basis(scene, lagrange.size() - 1, begin, end);
   shapes.r = rule.r;
   shapes.weight = rule.weight;
 
@@ -98,8 +98,8 @@ RadialShapes make_shapes(const Scene& scene,
     const double r = shapes.r[q];
     shapes.weight_over_r.push_back(shapes.weight[q] / r);
     shapes.alpha.push_back(scene.alpha(r));
-    const Vector<double> values = potential_shapes.values(r);
-    const Vector<double> derivatives = potential_shapes.depth_derivatives(r);
+    const Vector<double> values = basis.values(r);
+    const Vector<double> derivatives = basis.depth_derivatives(r);
     const ShapesAtPoint displacements(lagrange, (r - begin) / (end - begin));
     for (unsigned int i = 0; i < n; ++i)
       shapes.shapes.push_back({displacements.value[i], displacements.derivative[i] / (end - begin),
@@ -115,8 +115,8 @@ RadialShapes make_shapes(const Scene& scene,
         const double r = shapes.r[q], weight = shapes.weight[q];
         const RadialShape &one = shapes.shapes[n * q + i], &other = shapes.shapes[n * q + j];
         shapes.products.stiffness(i, j) +=
-            one.potential_s * other.potential_s * weight * r * shapes.alpha[q]; // ds = r alpha dr
-        shapes.products.mass(i, j) += one.potential * other.potential * shapes.weight_over_r[q];
+            one.psi_s * other.psi_s * weight * r * shapes.alpha[q]; // ds = r alpha dr
+        shapes.products.mass(i, j) += one.psi * other.psi * shapes.weight_over_r[q];
       }
   return shapes;
 }

@@ -48,7 +48,8 @@ std::optional<Certificate> certify_solution(Run& run, MeshObjects& objects,
   attempt(
       [&] {
         if (!objects.dual)
-          objects.dual = std::make_unique<DualSystem>(space, solution.scene, run.statistics);
+          objects.dual = std::make_unique<DualSystem>(space, objects.system.shapes, solution.scene,
+                                                      run.statistics);
         certificate = certify(solution, solution.displacement,
                               objects.load ? &objects.load->integral : nullptr, *objects.dual,
                               run.statistics);

@@ -38,7 +38,7 @@ void require_finite(double number, const std::string& what) {
 
 System make_system(const RingSpace& space, const Scene& scene,
                    const std::pair<double, double>& zone, RunStatistics& statistics) {
-  System system = {ContactBoundary(space, zone), {}, {}};
+  System system = {ContactBoundary(space, zone), RadialShapesOfMesh(space, scene), {}, {}};
   const auto make = [&] {
     std::optional<SystemMatrix> matrix;
     {
@@ -64,9 +64,8 @@ std::unique_ptr<const Load> make_load(const System& system, const Scene& scene,
     return nullptr;
   const RunStatistics::Phase phase(statistics, "assembly");
   const RingSpace& space = system.boundary.space();
-  const RadialShapesOfMesh shapes(space, scene);
-  ForceIntegral integral(space, scene, shapes);
-  FieldVector vector = assemble_load(space, integral, shapes);
+  ForceIntegral integral(space, scene, system.shapes);
+  FieldVector vector = assemble_load(space, integral, system.shapes);
   ++statistics.load_assemblies;
   require_finite(sum_of_squares(vector), "the load");
   Vector<double> condensed = system.factor->condense(vector, statistics);

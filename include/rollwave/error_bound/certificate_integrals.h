@@ -19,7 +19,7 @@ struct AdmissibleFields {
   const FieldVector& displacement; ///< u_h, with the contact nodes on the road or before it
   const AdmissibleTrace& trace;
   const std::vector<EdgePressure>& pressures; ///< lambda
-  const FieldVector& potential;               ///< psi
+  const FieldVector& stress_function;         ///< psi
   const ForceIntegral* force;                 ///< nullptr without force
   const LoadFunctions& load_functions;
 };

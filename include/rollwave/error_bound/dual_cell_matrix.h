@@ -7,13 +7,13 @@
 namespace rollwave {
 
 /**
- * The matrix of a cell for the form that the potential of a flux minimises,
+ * The matrix of a cell for the form that the stress function psi of a flux minimises,
  *
  *     int psi_s chi_s ds dz + int psi_z chi_z / r dr dz,   ds = r alpha dr.
  *
- * On a cell, potentials are products R(r) Z(z) of radial shapes and polynomials, so that its matrix
- * is a sum of two products of one-dimensional ones, which costs less than quadrature on the cell.
- * Degrees of freedom are numbered as by LexicographicDofs.
+ * On a cell, stress functions are products R(r) Z(z) of radial shapes and polynomials, so that its
+ * matrix is a sum of two products of one-dimensional ones, which costs less than quadrature on the
+ * cell. Degrees of freedom are numbered as by LexicographicDofs.
  */
 class DualCellMatrix {
 public:

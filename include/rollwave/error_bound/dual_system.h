@@ -16,7 +16,7 @@ struct Scene;
 class RunStatistics;
 
 /**
- * The linear problem for the stress function psi, the potential of a flux tau that balances the
+ * The linear problem for the stress function psi of a flux tau that balances the
  * force and a contact pressure lambda,
  *
  *     r tau_z = psi_r,   r tau_r = Q - psi_z,   Q(r, z) = int_r^b rho f drho,   psi_z = b lambda on
@@ -33,8 +33,10 @@ class RunStatistics;
 class DualSystem {
 public:
   /// Factorises the matrix, which depends on the space and the speed of the scene alone.
+  /// @param shapes of the same space and speed, must outlive it, as the space must
   /// @throws NotEnoughMemory, NotSolved
-  DualSystem(const RingSpace& space, const Scene& scene, RunStatistics& statistics);
+  DualSystem(const RingSpace& space, const RadialShapesOfMesh& shapes, const Scene& scene,
+             RunStatistics& statistics);
 
   /// The nodal values of psi, both sides of the seam having their own, for a scene of this speed.
   /// @param pressures one for each of RingSpace::surface_edges()
@@ -46,7 +48,7 @@ public:
 
 private:
   const RingSpace& space;
-  const RadialShapesOfMesh radial;
+  const RadialShapesOfMesh& radial;
   std::unique_ptr<const SparseFactor> factor;
   std::unique_ptr<CondensedSystem> condensed; ///< of the unknowns between processes
 };

@@ -56,8 +56,8 @@ public:
   void values_on_line_at(unsigned int cell, double t, std::vector<double>& line) const;
 
   enum class TestSpace {
-    displacements, ///< int Q_h d_r phi_i dr dz
-    potentials     ///< int Q_h d_z psi_i / r dr dz
+    displacements,   ///< int Q_h d_r phi_i dr dz
+    stress_functions ///< int Q_h d_z psi_i / r dr dz
   };
   void add_load(const RingSpace& space, const RadialShapesOfMesh& shapes, TestSpace kind,
                 const dealii::AffineConstraints<double>& constraints, FieldVector& load) const;

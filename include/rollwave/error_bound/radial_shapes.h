@@ -14,8 +14,8 @@
 namespace rollwave {
 
 /**
- * The radial shape functions of a potential psi on the interval [begin, end] of a cell: functions
- * whose derivative by the depth s(r) = int_r^b rho alpha drho is a polynomial of degree p - 1 in r,
+ * The radial shape functions of a stress function psi on the interval [begin, end] of a cell. Their
+ * derivatives by the depth s(r) = int_r^b rho alpha drho are polynomials of degree p - 1 in r,
  *
  *     psi(r) = c + int_begin^r rho alpha q(rho) drho,   psi_s = -q,
  *
@@ -52,16 +52,16 @@ struct ShapeProducts {
 
 /// The values of the shape functions number i at one point.
 struct RadialShape {
-  double value;       ///< of a displacement: L_i((r - begin)/(end - begin))
-  double derivative;  ///< d/dr of it
-  double potential;   ///< of a potential
-  double potential_s; ///< d/ds of it
+  double value;      ///< of a displacement: L_i((r - begin)/(end - begin))
+  double derivative; ///< d/dr of it
+  double psi;        ///< of a stress function
+  double psi_s;      ///< d/ds of it
 };
 
 /**
  * One-dimensional shape functions on the radial interval [begin, end] of a cell at the points of a
  * quadrature rule, i counting outwards: Lagrange polynomials L_i in r with nodes at Gauss-Lobatto
- * points for displacements, StressFunctionBasis for potentials.
+ * points for displacements, StressFunctionBasis for stress functions.
  */
 struct RadialShapes {
   std::vector<double> r;
@@ -75,8 +75,8 @@ struct RadialShapes {
   /// [0, 1].
   std::vector<double> highest_mode;
 
-  /// Matrices of the potential's shape functions, by the rule: mass int 1/r dr, stiffness int d/ds
-  /// d/ds ds
+  /// Matrices of the stress function's shape functions, by the rule: mass int 1/r dr, stiffness int
+  /// d/ds d/ds ds
   ShapeProducts products;
 
   /// int w X_i, X_i one of the functions of each shape, by @p weights, for w at the points.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "rollwave/error_bound/force_integral.h"
+#include "rollwave/error_bound/radial_shapes.h"
 #include "rollwave/mesh/contact_boundary.h"
 #include "rollwave/solver/contact_equations.h"
 #include "rollwave/solver/sparse_factor.h"
@@ -17,7 +18,8 @@ struct Scene;
 
 /// The equations on one mesh. They depend on its space, the speed, and the contact nodes.
 struct System {
-  ContactBoundary boundary; ///< of the widest zone of the runs that use it
+  ContactBoundary boundary;  ///< of the widest zone of the runs that use it
+  RadialShapesOfMesh shapes; ///< of the load and the certificate
 
   /// The factor of the stiffness matrix. Each process keeps its contact nodes in it. A run frees it
   /// when it has the displacement.
