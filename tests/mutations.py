@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 """Small faults in the mathematics, each of which a test must find: a sign, a factor, an index.
 
-Usage: mutations.py BUILD [FILES]      in a clone of its own, whose sources it changes and restores
-
-FILES is a regular expression, as in mutations.py build contact/.
+Run it in a clone of its own, whose sources it changes and restores: tests/mutations.py build contact/
 """
+import argparse
 import os
 import pathlib
 import re
@@ -106,8 +105,11 @@ ALL_TESTS = ('ContactPatch*:Drum*:Patches*:ActiveSet*:Uzawa*:PaperFigure*:Stiffn
              'AdmissiblePressure.*:ForceIntegral*:Stability.*:ExactSolution*:Bessel*:Gegenbauer*:ManufacturedScene*:'
              'TrueErrors*:Random*')
 
-build = pathlib.Path(sys.argv[1]).resolve()
-files = re.compile(sys.argv[2] if len(sys.argv) > 2 else '')
+arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+arguments.add_argument('build', type=pathlib.Path, help='the directory of the build')
+arguments.add_argument('files', nargs='?', default='', type=re.compile, help='a regular expression of files')
+arguments = arguments.parse_args()
+build, files = arguments.build.resolve(), arguments.files
 root = pathlib.Path(__file__).resolve().parent.parent
 os.environ['OPENBLAS_NUM_THREADS'] = '1'
 
