@@ -241,15 +241,14 @@ void ForceIntegral::values_on_line_at(unsigned int cell, double t,
 void ForceIntegral::add_load(const RingSpace& space, const Shapes& shapes, TestSpace kind,
                              const AffineConstraints<double>& constraints,
                              FieldVector& load) const {
-  const bool of_stress = kind == TestSpace::stress_functions;
+  const bool of_psi = kind == TestSpace::stress_functions;
   const unsigned int n = space.dof_handler().get_fe().degree + 1;
   const auto lagrange_shapes = lobatto_lagrange(n - 1);
   FullMatrix<double> along_z(angular.size(), n);
   for (unsigned int p = 0; p < angular.size(); ++p) {
     const ShapesAtPoint shapes_at_p(lagrange_shapes, angular.point(p)[0]);
     for (unsigned int j = 0; j < n; ++j)
-      along_z(p, j) =
-          angular.weight(p) * (of_stress ? shapes_at_p.derivative : shapes_at_p.value)[j];
+      along_z(p, j) = angular.weight(p) * (of_psi ? shapes_at_p.derivative : shapes_at_p.value)[j];
   }
   std::vector<double> along_r(n);
   LexicographicDofs dofs(space.dof_handler());
@@ -259,11 +258,11 @@ void ForceIntegral::add_load(const RingSpace& space, const Shapes& shapes, TestS
       continue;
     const Point<2> low = cell->vertex(0), high = cell->vertex(3);
     const RadialShapes& radial = shapes.on(low[0], high[0]);
-    const double factor = of_stress ? 1 : high[1] - low[1]; // d/dz dz = d/dt dt
+    const double factor = of_psi ? 1 : high[1] - low[1]; // d/dz dz = d/dt dt
     cell_load = 0;
     for (unsigned int p = 0; p < angular.size(); ++p) {
       const double* const line = on_line(cell->active_cell_index(), p);
-      if (of_stress)
+      if (of_psi)
         radial.integrate(line, radial.weight_over_r, &RadialShape::psi, along_r);
       else
         radial.integrate(line, radial.weight, &RadialShape::derivative, along_r);

@@ -16,8 +16,8 @@ struct Scene;
 class RunStatistics;
 
 /**
- * The linear problem for the stress function psi of a flux tau that balances the
- * force and a contact pressure lambda,
+ * The linear problem for the stress function psi of a flux tau that balances the force and a
+ * contact pressure lambda,
  *
  *     r tau_z = psi_r,   r tau_r = Q - psi_z,   Q(r, z) = int_r^b rho f drho,   psi_z = b lambda on
  *     r = b,
