@@ -114,6 +114,18 @@ TEST_F(Pictures, CurvesGoThroughTheRowsOfTheTableInOrder) {
   EXPECT_EQ(panel, settings_of(read("study-curves.gp"), "ylabel").size());
 }
 
+TEST_F(Pictures, CurvesOfCalibrationsBeginWithTheModulus) {
+  run({"Material/Shear modulus=2", "Material/Density=1", "Mesh/Degree=1", "Road/Load=0.3",
+       "Study/Vary=Road/Nip = 0.7 | 0.5 | 0.6"});
+  const auto rows = csv_rows(read("study.csv"));
+  const Rows points = blocks_of(read("study-curves.gp"))["$curve_1_1"];
+  ASSERT_EQ(points.size(), 3u);
+  const std::vector<unsigned int> order = {1, 2, 0}; // by nip
+  for (unsigned int i = 0; i < 3; ++i)
+    expect_same_point(points[i], number(rows[order[i]], "Road/Nip"),
+                      number(rows[order[i]], "contact.calibrated_shear_modulus"));
+}
+
 TEST_F(Pictures, BandsAreTheGuaranteedIntervalsOfTheVerticalLoad) {
   run({"Study/Vary=Road/Distance = 0.8 | 0.7 | 0.85", "Mesh/Degree=1", "Mesh/Angular cells=30"});
   auto rows = csv_rows(read("study.csv"));

@@ -66,6 +66,29 @@ TEST_F(Program, ReproducesARunFromItsParameters) {
   EXPECT_EQ(read("contact.csv"), first);
 }
 
+// Uzawa's step length is a pressure over a length, and is scaled with the modulus.
+TEST_F(Program, ReproducesACalibrationFromItsParameters) {
+  const std::string calibration =
+      "$rollwave " + scene + " --set 'Material/Shear modulus=50' --set Material/Density=50";
+  for (const char* const method : {"", " --set Contact/Method=uzawa --set Contact/Rho=100"}) {
+    fs::remove_all(directory / "out");
+    ASSERT_EQ(shell(calibration + " --set Road/Load=0.2 --set Road/Nip=0.7" + method).exit_code, 0);
+    const auto first = nlohmann::json::parse(read("summary.json"));
+    const fs::path copy = directory / "calibrated.prm";
+    fs::copy_file(directory / "out" / "parameters.prm", copy, fs::copy_options::overwrite_existing);
+    const Outcome outcome = shell("$rollwave '" + copy.string() + "'");
+    ASSERT_EQ(outcome.exit_code, 0) << method << outcome.text;
+    const auto again = nlohmann::json::parse(read("summary.json"));
+    for (const char* const name : {"length", "peak_pressure", "vertical_load"})
+      EXPECT_NEAR(again["contact"][name], first["contact"][name].get<double>(),
+                  1e-7 * first["contact"][name].get<double>())
+          << method << name;
+    if (*method)
+      EXPECT_NEAR(again["iterations"]["rho"], first["iterations"]["rho"].get<double>(),
+                  1e-9 * first["iterations"]["rho"].get<double>());
+  }
+}
+
 // Nothing is removed, and what a run has not written is named once.
 TEST_F(Program, NamesFilesOfEarlierRuns) {
   const std::string study = "$rollwave " + scene +

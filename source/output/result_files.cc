@@ -48,17 +48,22 @@ bool fits_single_precision(const Units& units) {
   return fits(Quantity::length) && fits(Quantity::pressure) && fits(Quantity::energy_norm);
 }
 
-/// The parameters with the calibrated shear modulus and density, and with the load alone: with the
-/// nip another run would calibrate anew.
+/// The parameters with the calibrated shear modulus and density, with the step length of Uzawa's
+/// method in the same ratio, and with the load alone: with the nip another run would calibrate
+/// anew.
 Parameters parameters_used(const Parameters& given, const Result& result) {
   if (!result.modulus_ratio)
     return given;
-  const auto scaled = [&](const std::string& key, double value) {
-    return read({"Material", key, number_text(*result.modulus_ratio * value), "calibration"});
+  const std::string origin = "calibration";
+  const auto scaled = [&](const std::string& section, const std::string& key, double value) {
+    return read({section, key, number_text(*result.modulus_ratio * value), origin});
   };
-  return with_values(given, {scaled("Shear modulus", given.material.shear_modulus),
-                             scaled("Density", given.material.density),
-                             read({"Road", "Nip", "none", "calibration"})});
+  std::vector<Assignment> changes = {
+      scaled("Material", "Shear modulus", given.material.shear_modulus),
+      scaled("Material", "Density", given.material.density), read({"Road", "Nip", "none", origin})};
+  if (given.contact.rho)
+    changes.push_back(scaled("Contact", "Rho", *given.contact.rho));
+  return with_values(given, changes);
 }
 
 } // namespace

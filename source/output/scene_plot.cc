@@ -151,7 +151,7 @@ plot '$surface' using 1:2 with filledcurves y1=0 fillcolor rgb '#dbe7f3', \
      '$surface' using 1:2 with lines linestyle 1, \
      '$road' using 1:2 with lines linestyle 3
 unset parametric
-set grid
+set grid linetype 1 linewidth 0.5 linecolor rgb '#d8d8d8'
 )";
 
 /// Gap and pressure along the road.

@@ -166,7 +166,8 @@ void declare_contact(Section<ContactOptions> keys) {
       "Method", &ContactOptions::method,
       {{"active set", ContactMethod::active_set}, {"uzawa", ContactMethod::uzawa}},
       "The contact iteration. \"active set\": primal-dual active set, ends in finitely many steps. "
-      "\"uzawa\": projected steps of length rho on the pressure.",
+      "\"uzawa\": projected steps of length rho on the pressure. The distance for a given load or "
+      "nip is searched by the active set in both cases.",
       {Affects::titles});
   keys.add("Rho", &ContactOptions::rho, "auto", positive,
            "Step length rho of Uzawa's method, a pressure over a displacement: a number "

@@ -6,6 +6,7 @@
 #include "rollwave/run/quantities.h"
 #include "rollwave/scene/units.h"
 #include "rollwave/study/convergence.h"
+#include "rollwave/study/study_title.h"
 
 #include <algorithm>
 #include <optional>
@@ -37,39 +38,6 @@ const Setting& fastest_key(const Study& study, const RunPlan& plan) {
 /// True for the keys of the scene, false for those of the method.
 bool is_of_scene(const Setting& setting) {
   return key_of(setting).affects & Affects::scene;
-}
-
-/// The values that all runs share: of the keys that titles name, and of others of the scene that
-/// are not at their defaults.
-std::string title_of(const Study& study, const std::vector<Setting>& settings) {
-  std::set<std::string> differing; // keys
-  for (const RunPlan& plan : study.plans)
-    for (const auto& of_run : {plan.scene_settings, plan.varied})
-      for (const Setting& setting : of_run)
-        differing.insert(setting.path());
-  const auto is_calibrated = [](const RunPlan& plan) {
-    return plan.parameters.road.load && plan.parameters.road.nip;
-  };
-  if (std::any_of(study.plans.begin(), study.plans.end(), is_calibrated))
-    differing.insert({"Material/Shear modulus", "Material/Density"}); // which are results
-  const std::set<std::string> places = {"Road/Distance", "Road/Load", "Road/Nip"};
-  for (const std::string& key : places) // of which one or two are none
-    if (differing.count(key) > 0) {
-      differing.insert(places.begin(), places.end());
-      break;
-    }
-  std::string title;
-  for (const Key& key : all_keys()) {
-    const Setting setting{key.section, key.name, value_of(key, settings), ""};
-    const bool is_named = (key.affects & Affects::titles) ||
-                          ((key.affects & Affects::scene) && setting.value != key.default_value);
-    if (is_named && differing.count(key.path()) == 0 && setting.value != "none")
-      title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
-  }
-  const bool is_adaptive =
-      std::all_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  return title + (is_adaptive ? ", adaptive" : "");
 }
 
 /// Curves of a quantity over the first key of the last part of Study/Vary, one for each choice of
@@ -114,8 +82,16 @@ std::string label_of(const Study& study, const ResultQuantity& quantity) {
          study.units().in_brackets(quantity.quantity);
 }
 
-/// The result of a scene: the deflection if all runs give a load, otherwise the vertical load.
+bool calibrates(const Study& study) {
+  return std::all_of(study.plans.begin(), study.plans.end(),
+                     [](const RunPlan& plan) { return plan.parameters.road.calibrates(); });
+}
+
+/// The result of a scene: the shear modulus if all runs are calibrations, the deflection if all
+/// give a load or a nip, otherwise the vertical load.
 const ResultQuantity& main_result(const Study& study) {
+  if (calibrates(study))
+    return result_quantity("contact.calibrated_shear_modulus");
   const bool has_load =
       std::all_of(study.plans.begin(), study.plans.end(),
                   [](const RunPlan& plan) { return !plan.parameters.road.has_distance(); });
@@ -134,10 +110,12 @@ bool is_zigzag(const Panel& panel) {
 }
 
 /// A panel for each quantity that is drawn over the key that varies fastest. If this key is the
-/// distance or the load, the first panel is the vertical load over the deflection; otherwise it is
-/// the main_result() over this key.
+/// distance, the load or the nip, the first panel is the vertical load over the deflection;
+/// otherwise, and for calibrations, it is the main_result() over this key.
 std::vector<Panel> curve_panels(const Study& study, const std::vector<std::optional<double>>& x) {
   const std::string& key = fastest_key(study, study.plans.front()).key;
+  const bool has_deflections =
+      !calibrates(study) && (key == "Distance" || key == "Load" || key == "Nip");
   const ResultQuantity& deflection = result_quantity("scene.deflection");
   std::vector<Panel> panels;
   const auto add = [&](const std::string& x_label, const std::vector<std::optional<double>>& over,
@@ -151,7 +129,7 @@ std::vector<Panel> curve_panels(const Study& study, const std::vector<std::optio
       continue;
     else if (quantity.name != "contact.vertical_load")
       add(x_label_of(study), x, quantity);
-    else if (key == "Distance" || key == "Load" || key == "Nip")
+    else if (has_deflections)
       add(label_of(study, deflection), values_in_runs(study, deflection.name), quantity);
     else
       add(x_label_of(study), x, main_result(study));
@@ -240,7 +218,7 @@ std::vector<double> fastest_numbers(const Study& study) {
 }
 
 void draw_study(const Parameters& parameters, const Study& study, WrittenFiles& written) {
-  const std::string title = title_of(study, parameters.settings);
+  const std::string title = study_title(study, parameters.settings);
   std::vector<Picture> pictures;
   const auto add = [&](const std::string& name, std::vector<Panel> panels,
                        const std::string& title) {

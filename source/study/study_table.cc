@@ -90,7 +90,7 @@ bool has_one_modulus_for_covers(const Study& study) {
   std::map<double, double> thickness_of; // by the shear modulus
   for (const RunPlan& plan : study.plans) {
     const Parameters& p = plan.parameters;
-    if (!p.material.is_given() || (p.road.load && p.road.nip))
+    if (!p.material.is_given() || p.road.calibrates())
       continue;
     const double thickness = p.cylinder.outer_radius - p.cylinder.inner_radius;
     const auto [known, is_first] = thickness_of.emplace(p.material.shear_modulus, thickness);

@@ -40,6 +40,9 @@ struct RoadOptions {
   /// False if the distance is a result.
   bool has_distance() const { return !load && !nip; }
 
+  /// True if the shear modulus is a result.
+  bool calibrates() const { return load && nip; }
+
   bool operator==(const RoadOptions& other) const { return members() == other.members(); }
 };
 

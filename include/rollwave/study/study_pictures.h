@@ -19,13 +19,14 @@ constexpr const char* study_picture_names[] = {"study-curves", "study-profiles",
 /**
  * Draws the pictures that a study has data for, each with its gnuplot script:
  *
- * - study-curves.svg: the vertical load over the deflection if distance or load varies fastest,
- *   otherwise the vertical load or, for a given load, the deflection over the key of the scene that
- *   varies fastest; then force, stiffness, peak pressure, half-width and contact length over that
+ * - study-curves.svg: the main result over the key of the scene that varies fastest: the shear
+ *   modulus of calibrations, the deflection for a given load or nip, otherwise the vertical load.
+ *   Where distance, load or nip varies fastest without a calibration, it is the vertical load over
+ *   the deflection. Then force, stiffness, peak pressure, half-width and contact length over that
  *   key;
  * - study-profiles.svg: pressures along the road;
- * - study-map.svg: the vertical load, or for a given load the deflection, over two keys of the
- * scene with more values than curves can show;
+ * - study-map.svg: the main result over two keys of the scene with more values than curves can
+ *   show;
  * - study-h.svg, study-unknowns.svg and study-time.svg: the true relative error in the energy norm
  *   or, if it is not known, its bound, over h, unknowns and seconds;
  * - study.svg: contact steps on uniform meshes over the key that varies fastest, if that is a
