@@ -103,11 +103,10 @@ ContactSolution active_set(const ContactEquations& equations, const ContactProbl
     if (is_last)
       return solution;
     if (solution.history.size() >= most_steps)
-      throw NotSolved(
-          "the active set method, which also searches the distance for a load or a nip, "
-          "has not ended after " +
-          std::to_string(most_steps) + " steps: " + std::to_string(step.changed) +
-          " nodes still change; raise Contact/Most steps");
+      throw NotSolved("the active set method has not ended after " + std::to_string(most_steps) +
+                      " steps: " + std::to_string(step.changed) +
+                      " nodes still change; raise Contact/Most steps (with a given load or nip the "
+                      "active set searches the distance, whatever Contact/Method is)");
     if (is_repeated && has_long_steps) {
       has_long_steps = false;
       visited.clear();

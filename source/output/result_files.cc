@@ -49,8 +49,8 @@ bool fits_single_precision(const Units& units) {
 }
 
 /// The parameters with the calibrated shear modulus and density, with the step length of Uzawa's
-/// method in the same ratio, and with the load alone: with the nip another run would calibrate
-/// anew.
+/// method in the same ratio, and with the nip alone: with the load another run would calibrate
+/// anew, and the load alone would lead to other adaptive meshes.
 Parameters parameters_used(const Parameters& given, const Result& result) {
   if (!result.modulus_ratio)
     return given;
@@ -60,7 +60,8 @@ Parameters parameters_used(const Parameters& given, const Result& result) {
   };
   std::vector<Assignment> changes = {
       scaled("Material", "Shear modulus", given.material.shear_modulus),
-      scaled("Material", "Density", given.material.density), read({"Road", "Nip", "none", origin})};
+      scaled("Material", "Density", given.material.density),
+      read({"Road", "Load", "none", origin})};
   if (given.contact.rho)
     changes.push_back(scaled("Contact", "Rho", *given.contact.rho));
   return with_values(given, changes);

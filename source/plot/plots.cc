@@ -236,14 +236,15 @@ Picture plot_map(std::string title, const std::string& x_label, const std::strin
             "set palette defined (0 '#fff7bc', 0.5 '#41b6c4', 1 '#081d58')\nset title "
          << heading.text << "\nset xlabel " << in_single_quotes(x_label) << "\nset ylabel "
          << in_single_quotes(y_label) << "\nset cblabel " << in_single_quotes(value_label)
-         << "\nset xrange [" << plotted(x_ends.front()) << ':' << plotted(x_ends.back())
-         << "]\nset yrange [" << plotted(y_ends.front()) << ':' << plotted(y_ends.back())
+         << " offset 1\nset rmargin at screen 0.79\nset xrange [" << plotted(x_ends.front()) << ':'
+         << plotted(x_ends.back()) << "]\nset yrange [" << plotted(y_ends.front()) << ':'
+         << plotted(y_ends.back())
          << "]\nset format '%g'\nset tics out nomirror\n"
             "plot $map using 1:2:4:5:6:7:3 with boxxyerror fillstyle solid noborder fillcolor "
             "palette, $contours using 1:2 with lines linecolor rgb '#000000' linewidth 1, "
             "$contours using ("
          << has_room("$1", x_ends, 0.08) << " && " << has_room("$2", y_ends, 0.06)
-         << " ? $1 : NaN):2:(sprintf('%.3g', $3)) every " << labelled << "::" << labelled / 4
+         << " ? $1 : NaN):2:(sprintf('%.5g', $3)) every " << labelled << "::" << labelled / 4
          << " with labels boxed font ',11'\n";
   return {"study-map", script.str(), width, height};
 }
