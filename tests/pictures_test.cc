@@ -423,6 +423,17 @@ TEST_F(Pictures, TitlesHaveNumbersOfFiveDigits) {
   expect_short("study-profiles.gp");
 }
 
+TEST_F(Pictures, AreNamedAdaptiveOnlyIfAllRunsAre) {
+  for (const auto& [marking, are_adaptive] :
+       {std::pair("bulk", true), {"bulk | all", false}, {"all", false}}) {
+    fs::remove_all(directory / "out");
+    run({"Mesh/Adaptive cycles=1", "Mesh/Degree=1",
+         "Study/Vary=Mesh/Marking = " + std::string(marking) + "; Road/Distance = 0.7 | 0.8"});
+    EXPECT_EQ(read("study-curves.gp").find("adaptive' font") != std::string::npos, are_adaptive)
+        << marking;
+  }
+}
+
 TEST_F(Pictures, KeysThatVaryTogetherDrawNoZigzag) {
   run({"Study/Vary=Mesh/Radial cells & Mesh/Angular cells = 2 & 48 | 4 & 48 | 2 & 96",
        "Mesh/Degree=1", "Output/Files=plot"});

@@ -26,6 +26,10 @@ unsigned int most_cycles(const RefinementOptions& options) {
       options.wanted_relative_error > 0 ? std::numeric_limits<unsigned int>::max() : 0);
 }
 
+bool is_adaptive(const RefinementOptions& options) {
+  return most_cycles(options) > 0 && options.marking != Marking::all;
+}
+
 bool has_room_to_refine(const Triangulation<2>& triangulation, const RefinementOptions& options,
                         double most_cells) {
   const double least_growth = options.marking == Marking::all ? 4 : 1.2;

@@ -174,9 +174,7 @@ std::vector<Family> find_families(const Study& study) {
       families.push_back({name, {}, false});
     Family& family = families[entry->second];
     family.runs.push_back(i);
-    const RefinementOptions& options = plan.parameters.mesh;
-    family.is_adaptive =
-        family.is_adaptive || (most_cycles(options) > 0 && options.marking != Marking::all);
+    family.is_adaptive = family.is_adaptive || is_adaptive(plan.parameters.mesh);
   }
   return families;
 }

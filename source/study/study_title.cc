@@ -32,10 +32,10 @@ std::string study_title(const Study& study, const std::vector<Setting>& settings
     if (is_named && differing.count(key.path()) == 0 && setting.value != "none")
       title += (title.empty() ? "" : ", ") + key_with_value(setting, study.units());
   }
-  const bool is_adaptive =
+  const bool all_are_adaptive =
       std::all_of(study.plans.begin(), study.plans.end(),
-                  [](const RunPlan& plan) { return most_cycles(plan.parameters.mesh) > 0; });
-  return title + (is_adaptive ? ", adaptive" : "");
+                  [](const RunPlan& plan) { return is_adaptive(plan.parameters.mesh); });
+  return title + (all_are_adaptive ? ", adaptive" : "");
 }
 
 } // namespace rollwave

@@ -37,6 +37,9 @@ struct RefinementOptions {
 /// How often a run refines its mesh at most.
 unsigned int most_cycles(const RefinementOptions& options);
 
+/// True if a run may refine some cells and not others.
+bool is_adaptive(const RefinementOptions& options);
+
 /// True if a further mesh is worth its solution although not all marked cells fit: a fifth more
 /// cells fit or, with Marking::all, four times as many.
 bool has_room_to_refine(const dealii::Triangulation<2>& triangulation,
