@@ -85,9 +85,10 @@ TEST_F(Program, ReproducesACalibrationFromItsParameters) {
     for (const char* const name : {"/mesh/dofs", "/contact/length", "/contact/peak_pressure",
                                    "/contact/vertical_load", "/iterations/rho"}) {
       const nlohmann::json::json_pointer place(name);
-      if (first[place].is_number()) // the step length is that of Uzawa's method
-        EXPECT_NEAR(again[place], first[place].get<double>(), 1e-7 * first[place].get<double>())
-            << name << more;
+      if (!first[place].is_number()) // the step length is that of Uzawa's method
+        continue;
+      const double expected = first[place];
+      EXPECT_NEAR(again[place], expected, 1e-7 * expected) << name << more;
     }
   }
 }
