@@ -19,7 +19,8 @@ double available_memory(const std::filesystem::path& root = "/");
 /// @throws NotEnoughMemory on all processes
 void require_memory(double bytes, const std::string& purpose, MPI_Comm communicator);
 
-/// The largest amount of memory that this process has held so far, in MiB.
+/// The largest amount of memory that this process has held so far, in MiB; 0 where Linux does not
+/// say, without /proc.
 double peak_memory_mib();
 
 } // namespace rollwave
