@@ -40,8 +40,7 @@ bool OwnFiles::include(const OwnFiles& wanted) const {
 OwnFiles own_files(const Parameters& study, const std::set<OutputFile>& kinds) {
   OwnFiles files = {kinds, {}};
   const auto depend_on = [&](const std::string& name) {
-    const Key& key = key_of({"Output", name, "", ""});
-    files.form[name] = value_of(key, study.settings);
+    files.form[name] = value_of(key_of({"Output", name, "", ""}), study.settings);
   };
   if (!kinds.empty())
     depend_on("Unit names");
