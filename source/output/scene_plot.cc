@@ -151,7 +151,6 @@ plot '$surface' using 1:2 with filledcurves y1=0 fillcolor rgb '#dbe7f3', \
      '$surface' using 1:2 with lines linestyle 1, \
      '$road' using 1:2 with lines linestyle 3
 unset parametric
-set grid linetype 1 linewidth 0.5 linecolor rgb '#d8d8d8'
 )";
 
 /// Gap and pressure along the road.
@@ -200,7 +199,7 @@ Picture plot_scene(const Scene& scene, const Parameters& parameters, const Resul
          << "'\nroad_side = " << (scene.road.is_convex() ? "'closed'" : "sprintf('y1=%g', -10*b)")
          << "\nset multiplot title "
          << title_in_room(title_of(scene, parameters, result), width).text << '\n'
-         << pictures;
+         << pictures << set_grid;
   for (const ContactPatch& patch : result.contact.patches)
     for (const double z : {patch.begin, patch.end})
       script << "set arrow from " << abscissa(scene, from_lowest_point(z))

@@ -90,7 +90,7 @@ Terminal terminal_of(PictureFormat format, const Picture& picture) {
     return " noenhanced size " + rounded(factor * picture.width, 6) + unit + ',' +
            rounded(factor * picture.height, 6) + unit + " font 'Helvetica,14' ";
   };
-  switch (format) { // cairo's fonts are in points of 1/72 of an inch, of which 3 are 4 of SVG's
+  switch (format) {        // three points of cairo's fonts are four of SVG's pixels
   case PictureFormat::png: // twice as many points as an SVG picture has, for print
     return {"pngcairo" + size(2, "") + "fontscale 1.5 linewidth 2 pointscale 2", "IEND"};
   case PictureFormat::pdf:

@@ -149,8 +149,7 @@ Picture plot_panels(const std::string& name, std::string title, std::vector<Pane
           [](const CurvePoint& left, const CurvePoint& right) { return left.x < right.x; });
   std::ostringstream script;
   script.precision(9);
-  script << "set grid linetype 1 linewidth 0.5 linecolor rgb '#d8d8d8'\n"
-         << (panels.size() > 1 ? "set tics font ',11'\n" : "");
+  script << set_grid << (panels.size() > 1 ? "set tics font ',11'\n" : "");
   for (unsigned int k = 0; k < panels.size(); ++k) // gnuplot 6 accepts no data within multiplot
     for (unsigned int i = 0; i < panels[k].curves.size(); ++i)
       write_points(script, block(k, i), panels[k].curves[i]);

@@ -82,6 +82,7 @@ std::string label_of(const Study& study, const ResultQuantity& quantity) {
          study.units().in_brackets(quantity.quantity);
 }
 
+/// True if all runs are calibrations.
 bool calibrates(const Study& study) {
   return std::all_of(study.plans.begin(), study.plans.end(),
                      [](const RunPlan& plan) { return plan.parameters.road.calibrates(); });

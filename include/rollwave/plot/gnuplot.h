@@ -16,6 +16,9 @@ struct Picture {
   unsigned int width, height;
 };
 
+/// The command for a grid of pale lines. gnuplot's own grid looks different in each format.
+constexpr const char* set_grid = "set grid linetype 1 linewidth 0.5 linecolor rgb '#d8d8d8'\n";
+
 /// @p text as a string of gnuplot, in which it expands nothing.
 std::string in_single_quotes(const std::string& text);
 
